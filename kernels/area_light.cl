@@ -32,21 +32,21 @@ kernel void add_area_light(VXL_WORLD_PARAMETERS, LightRecord light, LightAreaRec
 /// The weight, per square metre of the light's `area`, of the light that paths find by running into
 /// it. Behind mirrors and glass this is the whole light; elsewhere it is what the rays sent to the
 /// light leave to such paths.
-static inline lane_float met_share(const RayBatch* batch, uint first, lane_uint state,
-                                   lane_float falloff, float area) {
+static inline lane_float met_weight(const RayBatch* batch, uint first, lane_uint state,
+                                    lane_float falloff, float area) {
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
     const lane_int alone = LANE_MASK(bounces > 0u) & LANE_MASK((state & VXL_STATE_DIFFUSE) == 0u);
-    lane_float share = (lane_float)0.0f;
+    lane_float weight = (lane_float)0.0f;
     if (VXL_AREA_SHARES) {
         const lane_float density = path_float(batch->paths, VXL_PATH_DENSITY, batch->stride, first);
         const lane_float likelier = fmin(density * falloff, (lane_float)1e30f);
-        share = exact_divide(likelier, fma(likelier, (lane_float)area, 1.0f));
+        weight = exact_divide(likelier, fma(likelier, (lane_float)area, 1.0f));
     }
-    return LANES_SELECT(alone, exact_reciprocal((lane_float)area), share);
+    return LANES_SELECT(alone, exact_reciprocal((lane_float)area), weight);
 }
 
 /// Adds the light of paths that run into a light before they meet anything else to the sight rays
-/// that the paths began as. Weights it by met_share.
+/// that the paths began as. Weights it by met_weight.
 kernel void meet_area_light(PyramidShape shape, LightRecord light, LightAreaRecord area,
                             VXL_SURROUNDINGS_PARAMETERS, VXL_BATCH_PARAMETERS, uint count,
                             VXL_NODE_PARAMETERS) {
@@ -59,10 +59,10 @@ kernel void meet_area_light(PyramidShape shape, LightRecord light, LightAreaReco
     lane_float travelled = (lane_float)0.0f;
     if (VXL_TRAVELS) travelled = path_float(paths, VXL_PATH_TRAVELLED, stride, first);
     const AreaMeeting m = meet_area(light, area, shape.edge, way.origin, way.direction, travelled);
-    const lane_float share = met_share(&batch, first, state, m.falloff, area.axis_y.w);
+    const lane_float weight = met_weight(&batch, first, state, m.falloff, area.axis_y.w);
     const lane_int open =
         LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) == VXL_NO_VOXEL);
-    const lane_int met = below(first, count) & m.met & LANE_MASK(share > 0.0f) &
+    const lane_int met = below(first, count) & m.met & LANE_MASK(weight > 0.0f) &
                          LANE_MASK(m.t >= way.t_first) & (open | LANE_MASK(m.t < way.t_last));
     if (!lanes_any(met)) return;
     lane_float left[3] = {(lane_float)1.0f, (lane_float)1.0f, (lane_float)1.0f};
@@ -78,6 +78,6 @@ kernel void meet_area_light(PyramidShape shape, LightRecord light, LightAreaReco
     for (uint c = 0; c < 3; ++c) {
         const lane_float throughput = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
         add_to_nodes(&nodes, c, met, target,
-                     throughput * left[c] * share * (intensity[c] * 3.14159265f), 0);
+                     throughput * left[c] * weight * (intensity[c] * 3.14159265f), 0);
     }
 }

@@ -6,12 +6,12 @@
 #include "lib/surface/paint.h"
 
 /// Finds the factors by which emission maps multiply the light of smooth objects' pieces: the maps'
-/// means over squares of the pieces' areas. `places` has seven components, `stride` values apart:
+/// means over squares of the pieces' areas. `points` has seven components, `stride` values apart:
 /// the position in voxels, the unit normal in metric space, and the length of the square's sides in
 /// metres. `objects` holds the number of each piece's object.
 kernel void mean_emission_maps(PyramidShape shape, const uint count, const uint stride,
                                global const uint* restrict objects,
-                               global const float* restrict places,
+                               global const float* restrict points,
                                global const SourceRecord* restrict source_objects,
                                global const uint* restrict source_words,
                                global float* restrict factors) {
@@ -20,10 +20,10 @@ kernel void mean_emission_maps(PyramidShape shape, const uint count, const uint 
     const SourceMeshes sources = {source_objects, source_words};
     const lane_int ask = LANE_MASK(LANES_NUMBERS + (lane_int)(int)first < (lane_int)(int)count);
     const lane_uint object = LANES_LOAD(objects, first) & LANES_AS_UINT(ask);
-    const Vector at = load_vector(places, stride, first);
-    const Vector normal = load_vector(places + 3 * stride, stride, first);
+    const Vector at = load_vector(points, stride, first);
+    const Vector normal = load_vector(points + 3 * stride, stride, first);
     RaySpan span;
-    span_square(opposite(normal), normal, LANES_LOAD(places, 6 * stride + first), &span);
+    span_square(opposite(normal), normal, LANES_LOAD(points, 6 * stride + first), &span);
     Vector sides[2];
     for (int i = 0; i < 2; ++i) sides[i] = scaled(span.side[i], shape.inverse_edge);
     lane_float color[VXL_PAINT_OPACITY + 1];

@@ -15,10 +15,10 @@ kernel void send_light_beams(PyramidShape shape, global const uint* restrict sec
     const uint first = work_item() * VXL_LANES;
     if (first >= count * VXL_BEAM_TILE) return;
     const PyramidView dilated_occupancy = pyramid_view(shape, sectors, bricks, 0, 0);
-    const uint tile = tiles[first / VXL_BEAM_TILE], beside = grid.columns / 4;
+    const uint tile = tiles[first / VXL_BEAM_TILE], tiles_across = grid.columns / 4;
     const lane_int beam = LANES_NUMBERS + (int)(first % VXL_BEAM_TILE);
-    const lane_int column = (int)(tile % beside * 4) + (beam & 3);
-    const lane_int row = (int)(tile / beside * 4) + (beam >> 2);
+    const lane_int column = (int)(tile % tiles_across * 4) + (beam & 3);
+    const lane_int row = (int)(tile / tiles_across * 4) + (beam >> 2);
     const lane_float at_b = grid.low_b + (LANES_FLOAT(column) + 0.5f) * grid.edge;
     const lane_float at_c = grid.low_c + (LANES_FLOAT(row) + 0.5f) * grid.edge;
 

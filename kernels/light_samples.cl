@@ -72,9 +72,9 @@ static inline bool emits(const EmissivePieces* g, uint packed) {
 /// Lists a piece of form `form` in voxel (x,y,z). `number` is that of its voxel, field or solid.
 static inline void list_piece(const EmissivePieces* g, int x, int y, int z, uint form, uint number,
                               uint packed) {
-    const uint place = atomic_inc(g->found);
-    if (place < g->capacity)
-        g->pieces[place] = (uint4)((uint)x | (uint)y << 16, (uint)z | form << 16, number, packed);
+    const uint slot = atomic_inc(g->found);
+    if (slot < g->capacity)
+        g->pieces[slot] = (uint4)((uint)x | (uint)y << 16, (uint)z | form << 16, number, packed);
 }
 
 /// The sides of a cube that no other cube covers, as bits.

@@ -52,43 +52,43 @@ static inline bool was_met_before(const PixelSamples* s, uint sample, uint numbe
 /// The numbers that cover most of a pixel, and their weights; ties go to the lower number.
 typedef struct {
     uint number[VXL_RANKS];
-    float share[VXL_RANKS];
+    float weight[VXL_RANKS];
 } Ranks;
 
-static inline void insert_rank(Ranks* ranks, uint number, float share) {
+static inline void insert_rank(Ranks* ranks, uint number, float weight) {
     for (uint i = 0; i < VXL_RANKS; ++i) {
         const bool is_before =
-            share > ranks->share[i] ||
-            (share == ranks->share[i] && (ranks->number[i] == 0u || number < ranks->number[i]));
+            weight > ranks->weight[i] ||
+            (weight == ranks->weight[i] && (ranks->number[i] == 0u || number < ranks->number[i]));
         if (!is_before) continue;
         const uint other = ranks->number[i];
-        const float its_share = ranks->share[i];
-        ranks->number[i] = number, ranks->share[i] = share;
+        const float its_weight = ranks->weight[i];
+        ranks->number[i] = number, ranks->weight[i] = weight;
         if (other == 0u) return;
-        number = other, share = its_share;
+        number = other, weight = its_weight;
     }
 }
 
 /// Removes a number from the ranks, or the last rank if the number isn't there. Returns the weight
 /// that the removed rank had.
 static inline float take_rank(Ranks* ranks, uint number) {
-    float share = 0.0f;
+    float weight = 0.0f;
     for (uint i = 0; i < VXL_RANKS; ++i) {
-        const bool is_place = ranks->number[i] == number || i + 1u == VXL_RANKS;
-        if (share == 0.0f && is_place) share = ranks->share[i];
-        if (share == 0.0f) continue;
+        const bool is_match = ranks->number[i] == number || i + 1u == VXL_RANKS;
+        if (weight == 0.0f && is_match) weight = ranks->weight[i];
+        if (weight == 0.0f) continue;
         const bool is_end = i + 1u == VXL_RANKS;
         ranks->number[i] = is_end ? 0u : ranks->number[i + 1u];
-        ranks->share[i] = is_end ? 0.0f : ranks->share[i + 1u];
+        ranks->weight[i] = is_end ? 0.0f : ranks->weight[i + 1u];
     }
-    return share;
+    return weight;
 }
 
 /// One work-item ranks what one pixel shows. Rank r of a pixel is stored `pixels` * r behind its
-/// first, as a number in `numbers`, 0 for none, and as the covered part of the pixel in `shares`.
+/// first, as a number in `numbers`, 0 for none, and as the covered part of the pixel in `weights`.
 kernel void rank_matte(Camera camera, VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
                        uint shift, uint mask, global uint* restrict numbers,
-                       global float* restrict shares) {
+                       global float* restrict weights) {
     const uint item = work_item();
     if (item >= tile_count * 16u) return;
     const uint tile = first_tile + item / 16u, tiles_x = ((uint)camera.width + 3u) / 4u;
@@ -99,26 +99,26 @@ kernel void rank_matte(Camera camera, VXL_BATCH_PARAMETERS, uint first_tile, uin
     const uint samples = (uint)camera.samples;
     const PixelSamples s = {&batch, item / 16u * samples * 16u + item % 16u, {shift, mask}};
     const size_t pixels = (size_t)camera.width * (size_t)camera.height;
-    const size_t place = row * (size_t)camera.width + column;
+    const size_t index = row * (size_t)camera.width + column;
     Ranks ranks;
     for (uint i = 0; i < VXL_RANKS; ++i) {
-        ranks.number[i] = VXL_EARLIER ? numbers[i * pixels + place] : 0u;
-        ranks.share[i] = VXL_EARLIER ? shares[i * pixels + place] : 0.0f;
+        ranks.number[i] = VXL_EARLIER ? numbers[i * pixels + index] : 0u;
+        ranks.weight[i] = VXL_EARLIER ? weights[i * pixels + index] : 0.0f;
     }
     const float weight = VXL_EARLIER ? 1.0f : camera.sample_weight;
     for (uint sample = 0; sample < samples; ++sample) {
         const uint number = sample_number(&s, sample);
         if (number == 0u || was_met_before(&s, sample, number)) continue;
-        float share = 0.0f;
+        float covered = 0.0f;
         for (uint other = sample; other < samples; ++other)
-            if (sample_number(&s, other) == number) share += sample_coverage(&s, other);
-        if (share == 0.0f) continue;
-        if (VXL_EARLIER) share += take_rank(&ranks, number);
-        insert_rank(&ranks, number, share * weight);
+            if (sample_number(&s, other) == number) covered += sample_coverage(&s, other);
+        if (covered == 0.0f) continue;
+        if (VXL_EARLIER) covered += take_rank(&ranks, number);
+        insert_rank(&ranks, number, covered * weight);
     }
     for (uint i = 0; i < VXL_RANKS; ++i) {
-        numbers[i * pixels + place] = ranks.number[i];
-        shares[i * pixels + place] =
-            VXL_EARLIER ? ranks.share[i] * camera.sample_weight : ranks.share[i];
+        numbers[i * pixels + index] = ranks.number[i];
+        weights[i * pixels + index] =
+            VXL_EARLIER ? ranks.weight[i] * camera.sample_weight : ranks.weight[i];
     }
 }

@@ -64,7 +64,7 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
     if (VXL_MEDIUM_COLORS)
         veil = veil_of(shape, &density, density_colors, absorption, &segment, active & ~in_object);
     for (int channel = 0; channel < 3; ++channel) {
-        const uint place = (uint)channel * stride + first;
+        const uint index = (uint)channel * stride + first;
         lane_float per_metre = (lane_float)absorption[channel];
         // The medium scatters paths by chance, but rays sent to emitters lose the scattered part.
         if (VXL_SCATTERING && VXL_LOOKS)
@@ -84,9 +84,9 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
                                   veil_transmittance(&veil, scattered, looks, channel));
             added = LANES_SELECT(in_object, added, veil.emitted[channel] * shows);
         }
-        const lane_float behind = LANES_LOAD(radiance, place);
-        LANES_STORE(fma(weight, behind, added), radiance, place);
-        if (VXL_PATHS) LANES_STORE(weight, transmittance, place);
+        const lane_float behind = LANES_LOAD(radiance, index);
+        LANES_STORE(fma(weight, behind, added), radiance, index);
+        if (VXL_PATHS) LANES_STORE(weight, transmittance, index);
     }
 }
 
@@ -112,11 +112,11 @@ kernel void absorb_shadows(PyramidShape shape, Environment environment, VXL_DENS
                                  environment.absorption.z};
     float arriving[3 * VXL_LANES];
     for (int channel = 0; channel < 3; ++channel) {
-        const uint place = (uint)channel * stride + first;
+        const uint index = (uint)channel * stride + first;
         const lane_float weight =
-            LANES_LOAD(queue.contributions, place) * exact_exp(-absorption[channel] * depth);
+            LANES_LOAD(queue.contributions, index) * exact_exp(-absorption[channel] * depth);
         if (VXL_SHADOWS)
-            LANES_STORE(weight, queue.contributions, place);
+            LANES_STORE(weight, queue.contributions, index);
         else
             LANES_STORE(weight, arriving, channel * VXL_LANES);
     }

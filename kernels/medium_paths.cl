@@ -95,8 +95,8 @@ static inline void shine_into_medium(PyramidShape shape, LightRecord light, Vect
     if (VXL_NEAR_LIGHT && light.kind != VXL_LIGHT_DIRECTIONAL) {
         const Vector middle = {(lane_float)light.position.x, (lane_float)light.position.y,
                                (lane_float)light.position.z};
-        scattered *= share_of_chance(light, edge, scaled(difference(middle, at), edge), way,
-                                     batch->hits, stride, first, i.lit);
+        scattered *= chance_weight(light, edge, scaled(difference(middle, at), edge), way,
+                                   batch->hits, stride, first, i.lit);
     }
     const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     for (int c = 0; c < 3; ++c) r.contribution[c] = scattered * intensity[c];

@@ -110,8 +110,8 @@ kernel void paint_distances(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED
         }
         const short value =
             stored_distance(object.distance_scale * distance_at(&object, block, gathered.first, p));
-        global short* place = out + node.x + (node.y << 4) + (node.z << 8);
-        *place = min(*place, value);
+        global short* value_at = out + node.x + (node.y << 4) + (node.z << 8);
+        *value_at = min(*value_at, value);
     }
 }
 
@@ -126,8 +126,8 @@ kernel void close_distances(const uint count, VXL_PAINTED_PARAMETERS) {
     global short* out = world.distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf);
     for (int i = 0; i < 64; ++i) {
         const int4 node = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
-        global short* place = out + node.x + (node.y << 4) + (node.z << 8);
-        *place = (short)max((int)*place, -depth_in_world(world.bounds, low + node * 2));
+        global short* value_at = out + node.x + (node.y << 4) + (node.z << 8);
+        *value_at = (short)max((int)*value_at, -depth_in_world(world.bounds, low + node * 2));
     }
 }
 
@@ -151,8 +151,8 @@ kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT
     if (at_once) gather_block(&object, object.distance, gathered, block);
     for (int i = 0; i < 64; ++i) {
         const int4 voxel = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
-        const int place = leaf_index(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
-        const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + place;
+        const int index = leaf_index(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
+        const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + index;
         // Where the surface crosses, the corners' distances are within a voxel's diagonal: for most
         // voxels this one test is enough.
         if (world.distance[number] > 3 * crossing) continue;

@@ -85,8 +85,9 @@ kernel void append_worn(const uint count, const uint start, const uint first,
                         global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
     if (i >= count) return;
-    const bool is_place = i % VXL_WORN_WORDS == VXL_WORN_TEXTURE && from[i] != VXL_NO_TEXTURE;
-    to[start + i] = is_place ? from[i] + first : from[i];
+    const bool is_texture_index =
+        i % VXL_WORN_WORDS == VXL_WORN_TEXTURE && from[i] != VXL_NO_TEXTURE;
+    to[start + i] = is_texture_index ? from[i] + first : from[i];
 }
 
 // Writes one triangle's packed attributes.

@@ -26,7 +26,7 @@
 
 /// The pixels of a packet: some or all of a tile of 4 x 4.
 typedef struct {
-    size_t place[VXL_LANES];
+    size_t index[VXL_LANES];
     bool is_in_image[VXL_LANES];
     bool is_whole;   // all are in the image; each four lanes are a row of the tile
     lane_int known;  // mask: pixels that show something that earlier samples met
@@ -41,7 +41,7 @@ static inline Pixels pixels_of(const Camera* camera, uint tile, uint first) {
         const uint column = tile % tiles_x * 4u + ((first + i) & 3u);
         const uint row = tile / tiles_x * 4u + ((first + i) >> 2);
         p.is_in_image[i] = column < (uint)camera->width && row < (uint)camera->height;
-        p.place[i] = row * (size_t)camera->width + column;
+        p.index[i] = row * (size_t)camera->width + column;
         p.is_whole &= p.is_in_image[i];
     }
     return p;
@@ -52,17 +52,17 @@ static inline void store_pixels(lane_float value, const Pixels* p, global float*
     LANES_STORE(value, values, 0);
     if (p->is_whole) {
         for (uint i = 0; i + 4 <= VXL_LANES; i += 4)
-            vstore4(vload4(0, values + i), 0, plane + p->place[i]);
+            vstore4(vload4(0, values + i), 0, plane + p->index[i]);
         return;
     }
     for (uint i = 0; i < VXL_LANES; ++i)
-        if (p->is_in_image[i]) plane[p->place[i]] = values[i];
+        if (p->is_in_image[i]) plane[p->index[i]] = values[i];
 }
 
 /// The values of a plane; 0 outside the image.
 static inline lane_float load_pixels(const Pixels* p, global const float* plane) {
     float values[VXL_LANES];
-    for (uint i = 0; i < VXL_LANES; ++i) values[i] = p->is_in_image[i] ? plane[p->place[i]] : 0.0f;
+    for (uint i = 0; i < VXL_LANES; ++i) values[i] = p->is_in_image[i] ? plane[p->index[i]] : 0.0f;
     return LANES_LOAD(values, 0);
 }
 

@@ -103,8 +103,8 @@ kernel void pass_layer(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
 /// Where the reflected or refracted rays of a packet's entries are written.
 typedef struct {
     RayQueue queue;
-    uint compact;  // 0: lane i writes to slot `place` + i, even without a ray
-    uint place;
+    uint compact;  // 0: lane i writes to `slot` + i, even without a ray
+    uint slot;
     global uint* counters;
     global uint* restrict nodes;           // of the entries' children
     global float* restrict child_weights;  // of the children
@@ -119,8 +119,8 @@ static inline void put_children(const Destination* to, NewRays* r, Scattered s, 
         slots = reserve_slots(s.wanted, to->counters + VXL_COUNT_CHILDREN);
         at = slots.first + lanes_ranks(s.wanted);
     } else {
-        slots = slots_from(to->place, valid);
-        at = to->place + LANES_AS_UINT(LANES_NUMBERS);
+        slots = slots_from(to->slot, valid);
+        at = to->slot + LANES_AS_UINT(LANES_NUMBERS);
         r->t_end = LANES_SELECT(s.wanted, r->t_end, (lane_float)-1.0f);
     }
     if (VXL_TRANSMISSION) r->target = at;
@@ -156,12 +156,12 @@ static inline void store_tints(const Surroundings* around, const ScatterPoint* p
     const lane_uint voxel =
         LANES_LOAD(batch->hits, VXL_HIT_VOXEL * batch->stride + first) & LANES_AS_UINT(p->hit);
     const Colors own = colors_of_hits(colors, voxel, batch->paint, first);
-    const lane_uint place =
+    const lane_uint color_index =
         color_offset(materials, p->material, p->position.x, p->position.y, p->position.z);
     const lane_float tint =
         mapped_value(materials, p->material + VXL_MATERIAL_MIRROR_TINT, own, VXL_PAINT_MIRROR_TINT);
     for (uint c = 0; c < 3; ++c)
-        LANES_STORE(tinted(surface_color(materials, place, own, (int)c), tint), child_weights,
+        LANES_STORE(tinted(surface_color(materials, color_index, own, (int)c), tint), child_weights,
                     tint_of(c, batch->stride, first));
 }
 
@@ -197,7 +197,7 @@ kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float 
     if (!VXL_REFRACTS) return;
     ray.weight = weight * refracted.returned;
     refract_rays(shape, &around, &p, &batch, first, &ray);
-    to.place += end - begin;
+    to.slot += end - begin;
     to.nodes += stride, to.child_weights += stride;
     put_children(&to, &ray, refracted, p.valid);
 }

@@ -45,7 +45,7 @@
 
 /// Where rays met surfaces: the position in the voxel, and the unit normal in metric space.
 typedef struct {
-    Vector place, normal;
+    Vector point, normal;
 } SurfacePoint;
 
 /// Turns a gradient in the voxels of the hits into a unit normal in metric space.
@@ -70,10 +70,10 @@ static inline void meet_cubes(const WorldView* world, const ShadedHit* h, Surfac
     lane_float half_unit = (lane_float)0.5f;  // towards the face that was met
     if (VXL_CUBE_BODIES) half_unit = LANES_SELECT(is_exit(h->face), -half_unit, half_unit);
     const Vector on_face = {
-        LANES_SELECT(LANE_MASK(axis == 0u), fma(up_x, half_unit, 0.5f), p->place.x),
-        LANES_SELECT(LANE_MASK(axis == 1u), fma(up_y, half_unit, 0.5f), p->place.y),
-        LANES_SELECT(LANE_MASK(axis == 2u), fma(up_z, half_unit, 0.5f), p->place.z)};
-    p->place = select_vector(cubes, on_face, p->place);
+        LANES_SELECT(LANE_MASK(axis == 0u), fma(up_x, half_unit, 0.5f), p->point.x),
+        LANES_SELECT(LANE_MASK(axis == 1u), fma(up_y, half_unit, 0.5f), p->point.y),
+        LANES_SELECT(LANE_MASK(axis == 2u), fma(up_z, half_unit, 0.5f), p->point.z)};
+    p->point = select_vector(cubes, on_face, p->point);
     p->normal = select_vector(cubes, face, p->normal);
     if (VXL_INSTANCES)
         p->normal = select_vector(cubes & h->of_instance, normal_of(world, h, face), p->normal);
@@ -83,7 +83,7 @@ static inline void meet_cubes(const WorldView* world, const ShadedHit* h, Surfac
 static inline void meet_smooth(const WorldView* world, const ShadedHit* h, SurfacePoint* p) {
     const Field field = read_field(world->surface.fields, h->voxel & LANES_AS_UINT(h->smooth));
     Vector g;
-    field_gradient(&field, p->place.x, p->place.y, p->place.z, &g.x, &g.y, &g.z);
+    field_gradient(&field, p->point.x, p->point.y, p->point.z, &g.x, &g.y, &g.z);
     p->normal = select_vector(h->smooth, normal_of(world, h, g), p->normal);
 }
 
@@ -138,14 +138,14 @@ static inline SurfacePoint meet_surface(const WorldView* world, const ShadedHit*
         if (VXL_SOLIDS && lanes_any(solids)) meet_solids(world, h, solids, &p);
         const Vector along = {fma(d.x, t, o.x - c.x), fma(d.y, t, o.y - c.y),
                               fma(d.z, t, o.z - c.z)};
-        p.place = select_vector(h->exact, along, p.place);
+        p.point = select_vector(h->exact, along, p.point);
     }
     return p;
 }
 
 /// Where the points are in the world, in voxels.
 static inline Vector position_of(const ShadedHit* h, const SurfacePoint* p) {
-    const Vector in_cell = {h->cell.x + p->place.x, h->cell.y + p->place.y, h->cell.z + p->place.z};
+    const Vector in_cell = {h->cell.x + p->point.x, h->cell.y + p->point.y, h->cell.z + p->point.z};
     if (!VXL_INSTANCES) return in_cell;
     const Vector o = h->world_origin, d = h->world_way;
     const Vector on_ray = {fma(d.x, h->world_t, o.x), fma(d.y, h->world_t, o.y),
@@ -219,7 +219,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                                    Colors colors, const lane_float* emission_factors,
                                    const RayBatch* batch, uint first) {
     const lane_float diffuse = surface_diffuse(materials, material, colors);
-    const lane_uint place = color_offset(materials, material, position.x, position.y, position.z);
+    const lane_uint offset = color_offset(materials, material, position.x, position.y, position.z);
     lane_float around[3] = {(lane_float)environment.background.x,
                             (lane_float)environment.background.y,
                             (lane_float)environment.background.z};
@@ -237,7 +237,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
     if (VXL_SCATTERING) in_medium = scatters_before(batch, first);
     const float ambient[3] = {environment.ambient.x, environment.ambient.y, environment.ambient.z};
     for (int channel = 0; channel < 3; ++channel) {
-        const lane_float color = surface_color(materials, place, colors, channel);
+        const lane_float color = surface_color(materials, offset, colors, channel);
         lane_float emission =
             LANES_GATHER_FLOAT(materials, material + (uint)(VXL_MATERIAL_EMISSION + channel));
         if (VXL_TEXTURE_MAPS) emission *= emission_factors[channel];
@@ -270,7 +270,7 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     if (VXL_POSITIONS) store_vector(position, positions, stride, first);
     if (VXL_NORMALS) store_vector(p.normal, normals, stride, first);
     if (VXL_NORMALS && VXL_SHADING_NORMALS) {
-        const ShadingPoint s = shading_point(&world, &h, VXL_CUBE_STEPS, p.place, p.normal, behind);
+        const ShadingPoint s = shading_point(&world, &h, VXL_CUBE_STEPS, p.point, p.normal, behind);
         store_vector(s.normal, shading, stride, first);
         store_vector(s.offset, shading + VXL_SHADING_OFFSET * stride, stride, first);
     }

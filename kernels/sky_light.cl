@@ -7,10 +7,10 @@
 #include "lib/sampling/directions.h"
 
 /// A number that depends on the point alone, and so is equal in every image.
-static inline lane_uint seed_of_place(Vector position) {
-    const lane_uint place =
+static inline lane_uint seed_of_point(Vector position) {
+    const lane_uint hash =
         mixed_bits(mixed_bits(LANES_AS_UINT(position.x)) + LANES_AS_UINT(position.y));
-    return decision_seed(mixed_number(place), LANES_AS_UINT(position.z));
+    return decision_seed(mixed_number(hash), LANES_AS_UINT(position.z));
 }
 
 /// A direction to a sky map. Directions with an even `number` are chosen by the cosine with the
@@ -50,7 +50,7 @@ kernel void add_sky_light(VXL_WORLD_PARAMETERS, VXL_SKY_PARAMETERS uint number, 
     const SkyView around = VXL_SKY_VIEW;
     LitPoints p;
     if (!load_lit_points(&world, &batch, first, &p)) return;
-    const lane_uint seed = seed_of_place(p.position);
+    const lane_uint seed = seed_of_point(p.position);
     lane_float weight = exact_reciprocal((lane_float)directions);
     Vector way;
     if (VXL_SKY == VXL_SKY_MAP)

@@ -36,8 +36,8 @@ kernel void digest_walks(PyramidShape shape, global const float* restrict rays, 
     lane_uint cells = (lane_uint)0, hash = (lane_uint)0;
     lane_int walking = in_grid(&grid, &w);
     while (lanes_any(walking)) {
-        const lane_uint place = mix_cell(w.x, w.y, w.z) + LANES_AS_UINT(w.axis);
-        const lane_uint mixed = ((hash ^ LANES_AS_UINT(w.t)) + place) * VXL_HASH_FACTOR;
+        const lane_uint cell_hash = mix_cell(w.x, w.y, w.z) + LANES_AS_UINT(w.axis);
+        const lane_uint mixed = ((hash ^ LANES_AS_UINT(w.t)) + cell_hash) * VXL_HASH_FACTOR;
         hash = LANES_SELECT(walking, mixed, hash);
         cells -= LANES_AS_UINT(walking);
         walking &= LANE_MASK(cells < maximum);

@@ -198,7 +198,7 @@ kernel void measure_density(Camera camera, PyramidShape shape, DisplaySteps step
         float part[3 * VXL_LANES], color[3 * VXL_LANES];
         int adds[VXL_LANES];
         for (uint c = 0; VXL_MEDIUM_COLORS && c < 3; ++c)
-            LANES_STORE(LANES_GATHER_FLOAT(medium.colors, cell.place * 3u + c), color,
+            LANES_STORE(LANES_GATHER_FLOAT(medium.colors, cell.index * 3u + c), color,
                         c * VXL_LANES);
         LANES_STORE(cell.density * fmax(left - entered, 0.0f) * scale.metres, part, 0);
         LANES_STORE(fma(scale.along, entered, scale.origin), part, VXL_LANES);

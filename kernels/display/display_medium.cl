@@ -66,7 +66,7 @@ static inline void add_line(PyramidShape shape, const DensityView* density,
         sums->amount += amount;
         for (uint c = 0; VXL_MEDIUM_COLORS && c < 3; ++c)
             sums->colored[c] =
-                fma(amount, LANES_GATHER_FLOAT(colors, cell.place * 3u + c), sums->colored[c]);
+                fma(amount, LANES_GATHER_FLOAT(colors, cell.index * 3u + c), sums->colored[c]);
         walking &= ~stretch.ends & in_grid(&p, &walk);
     }
 }

@@ -91,7 +91,7 @@ static inline SamplePlane sample_plane(const DisplayLattice* l, float4 edge, Vec
 /// Sets `p` to the plane's point above slot `number` of a square of 4^log2 slots in Morton order.
 /// The square is the side of the voxel that the plane faces most. Returns the mask of planes that
 /// are in their voxels there.
-static inline lane_int place_on_plane(const SamplePlane* s, lane_uint number, int log2, Vector* p) {
+static inline lane_int point_on_plane(const SamplePlane* s, lane_uint number, int log2, Vector* p) {
     lane_uint column = (lane_uint)0u, row = (lane_uint)0u;
     for (int bit = 0; bit < log2; ++bit) {
         column |= (number >> 2 * bit & 1u) << bit;
@@ -123,10 +123,10 @@ static inline lane_int place_on_plane(const SamplePlane* s, lane_uint number, in
 /// Returns the mask of planes that have such a slot.
 static inline lane_int sample_on_plane(const SamplePlane* s, uint sample, uint samples,
                                        lane_float shift, int log2, Vector* p, lane_float* area) {
-    const uint places = 1u << 2 * log2;
+    const uint slot_count = 1u << 2 * log2;
     lane_uint count = (lane_uint)0u;
-    for (uint i = 0; i < places; ++i)
-        count += LANES_AS_UINT(place_on_plane(s, (lane_uint)i, log2, p)) & 1u;
+    for (uint i = 0; i < slot_count; ++i)
+        count += LANES_AS_UINT(point_on_plane(s, (lane_uint)i, log2, p)) & 1u;
     const Vector n = s->normal;
     const lane_float size = fmax(fmax(fabs(n.x), fabs(n.y)), fabs(n.z));
     *area = exact_divide(LANES_FLOAT(LANES_AS_INT(count)) * exact_sqrt(dot_product(n, n)),
@@ -136,12 +136,12 @@ static inline lane_int sample_on_plane(const SamplePlane* s, uint sample, uint s
     const lane_uint wanted =
         LANES_AS_UINT(clamp(LANES_INT(in_order), (lane_int)0, LANES_AS_INT(count) - 1));
     lane_uint seen = (lane_uint)0u, chosen = (lane_uint)0u;
-    for (uint i = 0; i < places; ++i) {
-        const lane_int inside = place_on_plane(s, (lane_uint)i, log2, p);
+    for (uint i = 0; i < slot_count; ++i) {
+        const lane_int inside = point_on_plane(s, (lane_uint)i, log2, p);
         chosen = LANES_SELECT(inside & LANE_MASK(seen == wanted), (lane_uint)i, chosen);
         seen += LANES_AS_UINT(inside) & 1u;
     }
-    return place_on_plane(s, chosen, log2, p) & LANE_MASK(count != 0u);
+    return point_on_plane(s, chosen, log2, p) & LANE_MASK(count != 0u);
 }
 
 /// A hash in 0 .. 1 for each of a packet's voxels, plus `turn`, modulo 1. It places neighbouring

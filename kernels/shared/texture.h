@@ -40,8 +40,9 @@
 // The maps of a texture lie on the same triangles and multiply values of the material other than
 // its colour. They are textures, too. A texture with VXL_TEXTURE_HAS_MAPS in its bits about edges
 // has a record of VXL_MAP_WORDS in front of it for each map:
-//   VXL_MAP_OFFSET  how far behind the texture the map begins, in words, modulo 2^32; 0: none
-//   VXL_MAP_PLACES  six floats a..f: (u, v) of the texture is (a u + b v + c, d u + e v + f) of it
+//   VXL_MAP_OFFSET     how far behind the texture the map begins, in words, modulo 2^32; 0: none
+//   VXL_MAP_TRANSFORM  six floats a..f: (u, v) of the texture is (a u + b v + c, d u + e v + f)
+//                      of it
 // Channels are those of glTF: green multiplies roughness, blue multiplies metalness, both
 // unconverted; emission is a colour in sRGB.
 #define VXL_TEXTURE_HAS_MAPS 0x100u
@@ -49,7 +50,7 @@
 #define VXL_MAP_EMISSION 1u
 #define VXL_MAP_COUNT 2
 #define VXL_MAP_OFFSET 0
-#define VXL_MAP_PLACES 1
+#define VXL_MAP_TRANSFORM 1
 #define VXL_MAP_WORDS 7
 
 // What rays see of the textures at each hit: its colour, its opacity, and how wide the ray was

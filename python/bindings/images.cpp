@@ -27,13 +27,13 @@ py::array plane(const py::object& self, const std::string& channel) {
 py::array_t<float> rgba(const Image& image) {
     py::array_t<float> result(std::vector<py::ssize_t>{image.height(), image.width(), 4});
     float* out = result.mutable_data();
-    size_t place = 0;
+    size_t component = 0;
     for (const char* name : {"R", "G", "B", "A"}) {
         const auto plane = image.has(name) ? image.plane(name) : std::span<const float>();
         if (plane.empty() && name[0] != 'A') throw py::key_error(name);
         for (size_t i = 0; i < size_t(image.width()) * size_t(image.height()); ++i)
-            out[4 * i + place] = plane.empty() ? 1.0f : plane[i];
-        ++place;
+            out[4 * i + component] = plane.empty() ? 1.0f : plane[i];
+        ++component;
     }
     return result;
 }

@@ -24,20 +24,21 @@ def shown(value: Any) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def number(name: str, value: Any, most: float = math.inf) -> float:
-    """A finite number of Python or numpy, from -most to most."""
+def number(name: str, value: Any, maximum: float = math.inf) -> float:
+    """A finite number of Python or numpy, from -maximum to maximum."""
     if not isinstance(value, (bool, np.bool_, str, bytes)):
         try:
             result = float(value)
         except (TypeError, ValueError, OverflowError):
             result = math.nan
-        if math.isfinite(result) and abs(result) <= most:
+        if math.isfinite(result) and abs(result) <= maximum:
             return result
-    kind = "a finite number" if math.isinf(most) else f"a number from {-most:g} to {most:g}"
+    kind = ("a finite number" if math.isinf(maximum)
+            else f"a number from {-maximum:g} to {maximum:g}")
     raise Error(f"{name} is {kind}, not {shown(value)}")
 
 
-def whole(name: str, value: Any, least: int = -MAX_WHOLE, most: int = MAX_WHOLE) -> int:
+def whole(name: str, value: Any, minimum: int = -MAX_WHOLE, maximum: int = MAX_WHOLE) -> int:
     """A whole number within bounds."""
     if not isinstance(value, (bool, np.bool_)):
         try:
@@ -45,9 +46,9 @@ def whole(name: str, value: Any, least: int = -MAX_WHOLE, most: int = MAX_WHOLE)
         except TypeError:
             pass
         else:
-            if least <= result <= most:
+            if minimum <= result <= maximum:
                 return result
-    raise Error(f"{name} is a whole number from {least} to {most}, not {shown(value)}")
+    raise Error(f"{name} is a whole number from {minimum} to {maximum}, not {shown(value)}")
 
 
 def items(name: str, value: Any, what: str, count: int | None = None) -> list[Any]:

@@ -225,7 +225,7 @@ std::vector<bool> objects_of_moving_models(const Scene& scene) {
     for (const MovingPart& part : scene.motion->parts)
         for (size_t i = 0; i < found.size(); ++i)
             found[i] = found[i] || (part.part == ScenePart::model &&
-                                    size_t(scene.objects[i].model) == part.place);
+                                    size_t(scene.objects[i].model) == part.index);
     return found;
 }
 

@@ -38,7 +38,7 @@ double largest_edge(const glm::dvec3& v) {
 /// True if a model's shape may change from frame to frame.
 bool changes(const Scene& scene, size_t number) {
     return scene.models[number].morph || any_part_changes(scene, [&](const MovingPart& part) {
-               return part.part == ScenePart::model && part.place == number;
+               return part.part == ScenePart::model && part.index == number;
            });
 }
 

@@ -95,12 +95,12 @@ std::optional<bool> lists_fields(const Scene& scene, const Pyramid& world) {
         VoxelBox box;
         bool is_smooth;
     };
-    constexpr size_t kMost = 300;  // each object is compared with each other
+    constexpr size_t kMaxObjects = 300;  // each object is compared with each other
     std::vector<Placed> placed;
     bool may_meet = false;
     const auto is_smooth_model = [](const Model& model) { return stores_distances(model.surface); };
     if (std::ranges::none_of(scene.models, is_smooth_model)) return false;
-    if (scene.objects.size() > kMost) return std::nullopt;
+    if (scene.objects.size() > kMaxObjects) return std::nullopt;
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         if (is_empty(world.object_boxes[i]) || is_instanced(scene, object)) continue;

@@ -47,9 +47,9 @@ bool is_plain(const Scene& scene, const Object& object) {
 bool may_change(const Scene& scene, size_t number) {
     return any_part_changes(scene, [&](const MovingPart& part) {
         return part.part == ScenePart::material ||
-               (part.part == ScenePart::model && part.place == number) ||
+               (part.part == ScenePart::model && part.index == number) ||
                (part.part == ScenePart::object &&
-                size_t(scene.objects[part.place].model) == number);
+                size_t(scene.objects[part.index].model) == number);
     });
 }
 

@@ -125,19 +125,19 @@ void VoxelExport::add_brick(uint32_t slot, Cells& cells) const {
     const glm::ivec3 corner = brick_corner(frame_, coordinates_[slot]);
     const double unit = shortest_edge(frame_) / kDistanceUnitsPerVoxel;
     for (uint32_t number = 0; number < kVoxelsPerBrick; ++number) {
-        const size_t place = size_t(slot) * kVoxelsPerBrick + number;
+        const size_t index = size_t(slot) * kVoxelsPerBrick + number;
         const glm::ivec3 p = cell_in_brick(number);
         if (stores_distances(surface_)) {
-            const double distance = distance_[place];
+            const double distance = distance_[index];
             if (std::abs(distance) >= kExportBand * kDistanceUnitsPerVoxel) continue;
             cells.values.push_back(float(distance * unit));
         } else {
             const size_t leaf = size_t(slot) * kLeavesPerBrick + leaf_in_brick(p);
             if ((occupancy_[leaf] & bit_in_leaf(p)) == 0) continue;
-            cells.values.push_back(colors_.empty() ? 1 : opacity_of(colors_[place]));
+            cells.values.push_back(colors_.empty() ? 1 : opacity_of(colors_[index]));
         }
         cells.cells.push_back(corner + p);
-        if (!colors_.empty()) cells.colors.push_back(linear_color(colors_[place]));
+        if (!colors_.empty()) cells.colors.push_back(linear_color(colors_[index]));
     }
 }
 

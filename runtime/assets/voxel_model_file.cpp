@@ -46,7 +46,7 @@ void number_bricks(const std::vector<glm::ivec3>& cells, const glm::ivec3& first
 }
 
 /// The index of cell `v` of the model among the voxels of its stored bricks.
-size_t place_of(const VoxelModel& model, const glm::ivec3& v) {
+size_t index_of(const VoxelModel& model, const glm::ivec3& v) {
     const uint32_t slot = model.slots[brick_of(v, model.frame.bricks())];
     return size_t(slot) * kVoxelsPerBrick + voxel_in_brick(v % kBrickSize);
 }
@@ -64,9 +64,9 @@ void fill_cubes(const VdbVoxels& voxels, const glm::ivec3& first, const InputFil
     for (size_t i = 0; i < voxels.cells.size(); ++i) {
         if (!(voxels.values[i] > 0)) continue;
         const glm::ivec3 v = voxels.cells[i] - first;
-        const size_t place = place_of(model, v);
+        const size_t index = index_of(model, v);
         model
-            .occupancy[place / kVoxelsPerBrick * kLeavesPerBrick + leaf_in_brick(v % kBrickSize)] |=
+            .occupancy[index / kVoxelsPerBrick * kLeavesPerBrick + leaf_in_brick(v % kBrickSize)] |=
             bit_in_leaf(v);
         if (model.colors.empty()) continue;
         uint32_t word = 0xFFFFFF;
@@ -75,7 +75,7 @@ void fill_cubes(const VdbVoxels& voxels, const glm::ivec3& first, const InputFil
             word = srgb_byte(c.r) | srgb_byte(c.g) << 8 | srgb_byte(c.b) << 16;
         }
         const uint32_t transparency = 255 - uint32_t(std::lround(255 * covers(i)));
-        model.colors[place] = word | transparency << VXL_TRANSPARENCY_SHIFT;
+        model.colors[index] = word | transparency << VXL_TRANSPARENCY_SHIFT;
     }
 }
 
@@ -98,7 +98,7 @@ void fill_distances(const VdbVoxels& voxels, const glm::ivec3& first, const Inpu
     const glm::dvec3& e = model.frame.voxel_edge;
     const double units = kDistanceUnitsPerVoxel / std::min({e.x, e.y, e.z});
     for (size_t i = 0; i < voxels.cells.size(); ++i)
-        model.distance[place_of(model, voxels.cells[i] - first)] =
+        model.distance[index_of(model, voxels.cells[i] - first)] =
             int16_t(std::lround(std::clamp(voxels.values[i] * units, -32767.0, 32767.0)));
 }
 

@@ -80,17 +80,17 @@ void paint_voxels(std::span<const Material> materials, uint32_t attribute, Voxel
         uint64_t& occupied = model.occupancy[leaf];
         for (int cell = 0; cell < 64; ++cell) {
             const uint64_t bit = uint64_t{1} << cell;
-            const size_t place = brick + voxel_in_brick(corner + cell_in_leaf(cell));
+            const size_t index = brick + voxel_in_brick(corner + cell_in_leaf(cell));
             if ((occupied & bit) == 0) {
-                colors[place] = 0xFFFFFFu;
+                colors[index] = 0xFFFFFFu;
                 continue;
             }
-            const uint32_t packed = model.attributes.empty() ? attribute : model.attributes[place];
-            colors[place] =
-                paints[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK].of(colors[place]);
-            const bool is_clear = colors[place] >> VXL_TRANSPARENCY_SHIFT == 255;
+            const uint32_t packed = model.attributes.empty() ? attribute : model.attributes[index];
+            colors[index] =
+                paints[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK].of(colors[index]);
+            const bool is_clear = colors[index] >> VXL_TRANSPARENCY_SHIFT == 255;
             if (is_clear) occupied &= ~bit;
-            model.transparent |= !is_clear && colors[place] >> VXL_TRANSPARENCY_SHIFT > 0;
+            model.transparent |= !is_clear && colors[index] >> VXL_TRANSPARENCY_SHIFT > 0;
         }
     }
     model.full_colors = colors_of_full(model, colors);

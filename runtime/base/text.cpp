@@ -70,8 +70,8 @@ std::string suggest(std::string_view text, std::span<const std::string_view> nam
         }
     }
     if (!best.empty()) return "; did you mean " + quote(best) + "?";
-    constexpr size_t kMostListed = 14;
-    if (names.empty() || names.size() > kMostListed) return "";
+    constexpr size_t kMaxListed = 14;
+    if (names.empty() || names.size() > kMaxListed) return "";
     std::string list;
     for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + quote(name);
     return "; known are " + list;

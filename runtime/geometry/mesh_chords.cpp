@@ -30,20 +30,20 @@ constexpr double kOffset = 0.4142135623730950;
 /// The positions of a mesh's vertices relative to the lines along each axis: twice a line's number
 /// for vertices on it, one more for those behind it. Most triangles of large meshes lie between the
 /// same lines.
-class Places {
+class LinePositions {
   public:
-    Places(const Mesh& mesh, const Bounds& box, const glm::ivec3& lines) {
+    LinePositions(const Mesh& mesh, const Bounds& box, const glm::ivec3& lines) {
         const glm::dvec3 step =
             glm::max((box.max - box.min) / glm::dvec3(lines), std::numeric_limits<double>::min());
-        places_.reserve(mesh.positions.size());
-        glm::i16vec3 place;
+        positions_.reserve(mesh.positions.size());
+        glm::i16vec3 relative;
         for (const glm::vec3& position : mesh.positions) {
             const glm::dvec3 p = (glm::dvec3(position) - box.min) / step - kOffset;
             const glm::ivec3 whole(p);
             for (int axis = 0; axis < 3; ++axis)
-                place[axis] =
+                relative[axis] =
                     int16_t(2 * whole[axis] + (p[axis] > whole[axis]) - (p[axis] < whole[axis]));
-            places_.push_back(place);
+            positions_.push_back(relative);
         }
     }
 
@@ -51,12 +51,12 @@ class Places {
     /// `end`, may cross the triangle.
     bool may_cross(const glm::uvec3& t, int axis, int first, int end) const {
         const auto [low, high] =
-            std::minmax({places_[t.x][axis], places_[t.y][axis], places_[t.z][axis]});
+            std::minmax({positions_[t.x][axis], positions_[t.y][axis], positions_[t.z][axis]});
         return (low < high || low % 2 == 0) && high >= 2 * first && low <= 2 * end;
     }
 
   private:
-    std::vector<glm::i16vec3> places_;
+    std::vector<glm::i16vec3> positions_;
 };
 
 struct Crossing {
@@ -172,13 +172,13 @@ class AxisLines {
 bool for_each_chord(const Mesh& mesh, const glm::ivec3& lines,
                     const std::function<void(const Chord&)>& add) {
     const Bounds box = mesh_bounds(mesh);
-    const Places places(mesh, box, lines);
+    const LinePositions positions(mesh, box, lines);
     for (int axis = 0; axis < 3; ++axis)
         for (int row = 0; row < lines[(axis + 2) % 3]; row += kRows) {
             AxisLines some(box, lines, axis, row);
             for (const glm::uvec3& t : mesh.triangles) {
-                if (!places.may_cross(t, (axis + 2) % 3, row, row + kRows) ||
-                    !places.may_cross(t, (axis + 1) % 3, 0, lines[(axis + 1) % 3]))
+                if (!positions.may_cross(t, (axis + 2) % 3, row, row + kRows) ||
+                    !positions.may_cross(t, (axis + 1) % 3, 0, lines[(axis + 1) % 3]))
                     continue;
                 some.cross({glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]),
                             glm::dvec3(mesh.positions[t.z])});

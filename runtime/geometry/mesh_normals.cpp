@@ -35,25 +35,24 @@ std::vector<glm::vec3> given_normals(const Mesh& mesh) {
 }
 
 /// A position, as what vertices are compared by.
-struct CornerPlace {
+struct CornerPosition {
     std::array<float, 3> position;
     uint32_t corner;  ///< 3 * triangle + its index in the triangle
 };
 
 /// The corners of a mesh in the order of their positions, so that those at one position stand
 /// together.
-std::vector<CornerPlace> corners_by_position(const Mesh& mesh) {
-    std::vector<CornerPlace> places;
-    places.reserve(3 * mesh.triangles.size());
+std::vector<CornerPosition> corners_by_position(const Mesh& mesh) {
+    std::vector<CornerPosition> corners;
+    corners.reserve(3 * mesh.triangles.size());
     for (const glm::uvec3& t : mesh.triangles)
         for (int i = 0; i < 3; ++i) {
             const glm::vec3 p = mesh.positions[t[i]] + 0.0f;  // -0 becomes 0
-            places.push_back({{p.x, p.y, p.z}, uint32_t(places.size())});
+            corners.push_back({{p.x, p.y, p.z}, uint32_t(corners.size())});
         }
-    std::ranges::sort(places, {}, [](const CornerPlace& place) {
-        return std::tie(place.position, place.corner);
-    });
-    return places;
+    std::ranges::sort(corners, {},
+                      [](const CornerPosition& c) { return std::tie(c.position, c.corner); });
+    return corners;
 }
 
 /// A face's normal and its angle at one of its corners.
@@ -92,11 +91,11 @@ std::vector<glm::vec3> averaged_normals(const Mesh& mesh, double crease_angle) {
     constexpr double kRounding = 1e-9;  // faces of one plane are within an angle of 0
     const double min_cosine = std::cos(glm::radians(crease_angle)) - kRounding;
     std::vector<glm::vec3> normals(3 * mesh.triangles.size());
-    const std::vector<CornerPlace> places = corners_by_position(mesh);
+    const std::vector<CornerPosition> corners = corners_by_position(mesh);
     std::vector<Wedge> wedges;
-    for (size_t i = 0; i < places.size(); ++i) {
-        wedges.push_back(wedge_of(mesh, places[i].corner));
-        if (i + 1 < places.size() && places[i + 1].position == places[i].position) continue;
+    for (size_t i = 0; i < corners.size(); ++i) {
+        wedges.push_back(wedge_of(mesh, corners[i].corner));
+        if (i + 1 < corners.size() && corners[i + 1].position == corners[i].position) continue;
         average_around(wedges, min_cosine, normals);
         wedges.clear();
     }

@@ -17,8 +17,8 @@ class FilledVoxels {
     FilledVoxels(const Mesh& mesh, const Bounds& box, double edge) {
         voxels_.reserve(mesh.triangles.size());
         for (const glm::uvec3& t : mesh.triangles) {
-            const glm::dvec3 place = (glm::dvec3(mesh.positions[t.x]) - box.min) / edge;
-            const glm::u64vec3 voxel(glm::min(glm::max(place, 0.0), double(kMask)));
+            const glm::dvec3 position = (glm::dvec3(mesh.positions[t.x]) - box.min) / edge;
+            const glm::u64vec3 voxel(glm::min(glm::max(position, 0.0), double(kMask)));
             voxels_.push_back(voxel.x | voxel.y << kBits | voxel.z << 2 * kBits);
         }
         drop_copies();

@@ -45,7 +45,7 @@ struct NumberedEdge {
 };
 
 /// The hash of each position, computed once and not for each of the six triangles that meet there.
-std::vector<uint64_t> place_hashes(const Mesh& mesh) {
+std::vector<uint64_t> position_hashes(const Mesh& mesh) {
     std::vector<uint64_t> hashes(mesh.positions.size());
     for (size_t i = 0; i < hashes.size(); ++i) hashes[i] = hash_of(bits_of(mesh.positions[i]));
     return hashes;
@@ -60,11 +60,12 @@ DirectedEdge edge_from(const Mesh& mesh, uint64_t corner) {
 
 /// Calls `visit` with each edge that has a length.
 template <class Visit>
-void for_each_edge(const Mesh& mesh, const std::vector<uint64_t>& of_places, const Visit& visit) {
+void for_each_edge(const Mesh& mesh, const std::vector<uint64_t>& of_positions,
+                   const Visit& visit) {
     uint64_t corner = 0;
     for (const glm::uvec3& triangle : mesh.triangles) {
-        const std::array<uint64_t, 3> hashes = {of_places[triangle.x], of_places[triangle.y],
-                                                of_places[triangle.z]};
+        const std::array<uint64_t, 3> hashes = {of_positions[triangle.x], of_positions[triangle.y],
+                                                of_positions[triangle.z]};
         for (size_t i = 0; i < 3; ++i, ++corner) {
             const uint64_t from = hashes[i], to = hashes[(i + 1) % 3];
             bool is_forward = from < to;
@@ -107,7 +108,7 @@ class EdgeSums {
 /// The edges that may be open. One set of buckets leaves all edges of a bucket that has an open
 /// one; a second set leaves a small share of these.
 std::vector<DirectedEdge> doubtful_edges_of(const Mesh& mesh) {
-    const std::vector<uint64_t> hashes = place_hashes(mesh);
+    const std::vector<uint64_t> hashes = position_hashes(mesh);
     EdgeSums sums(0);
     for_each_edge(mesh, hashes, [&](const NumberedEdge& edge) { sums.add(edge); });
     if (sums.are_all_closed()) return {};

@@ -90,7 +90,7 @@ glm::dvec3 min_shadows(const Solid& solid, const glm::dmat4& map) {
     return shadows;
 }
 
-uint64_t place_hash(const glm::vec3& position) {
+uint64_t position_hash(const glm::vec3& position) {
     const glm::vec3 p = position + 0.0f;  // -0 is 0
     uint64_t hash = std::bit_cast<uint32_t>(p.x);
     for (const float value : {p.y, p.z})
@@ -100,8 +100,8 @@ uint64_t place_hash(const glm::vec3& position) {
 }
 
 /// A hash of a triangle's corners. It is equal for triangles of equal corners in any order.
-uint64_t corner_hash(const std::vector<uint64_t>& places, const glm::uvec3& triangle) {
-    return (places[triangle.x] + places[triangle.y] + places[triangle.z]) * 0x9E3779B97F4A7C15u;
+uint64_t corner_hash(const std::vector<uint64_t>& hashes, const glm::uvec3& triangle) {
+    return (hashes[triangle.x] + hashes[triangle.y] + hashes[triangle.z]) * 0x9E3779B97F4A7C15u;
 }
 
 /// The contribution of a triangle to an area.
@@ -146,7 +146,7 @@ class Duplicates {
         shift_ = 64 - std::countr_zero(slots);
         reserve_in_huge_pages(seen_, (slots + 63) / 64);
         seen_.resize((slots + 63) / 64);
-        std::ranges::transform(mesh.positions, hashes_.begin(), place_hash);
+        std::ranges::transform(mesh.positions, hashes_.begin(), position_hash);
     }
 
     /// Calls `visit` with each triangle and whether it is a duplicate.

@@ -57,7 +57,7 @@ struct TextureMap {
     uint32_t texture = kNoTexture;  ///< its number in the mesh
     /// Position (u, v) of the texture that has the map is (a u + b v + c, d u + e v + f) of the
     /// map.
-    std::array<float, 6> places = {1, 0, 0, 0, 1, 0};
+    std::array<float, 6> transform = {1, 0, 0, 0, 1, 0};
 };
 
 struct Texture {

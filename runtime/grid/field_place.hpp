@@ -10,9 +10,9 @@
 
 namespace voxelume {
 
-/// The operation that joins a field's distances with those before it: the minimum (`least`) or
-/// maximum (`largest`) of the two; kernels/shared/field_place.h has the numbers.
-enum class FieldLink : uint8_t { none, least, largest };
+/// The operation that joins a field's distances with those before it: the minimum or maximum
+/// of the two; kernels/shared/field_place.h has the numbers.
+enum class FieldLink : uint8_t { none, minimum, maximum };
 
 /// The depth to which the brackets of a formula may be nested.
 inline constexpr size_t kMaxBracketDepth = VXL_MAX_BRACKETS;

@@ -40,9 +40,9 @@ uint64_t voxel_count(const VolumeFrame& frame) {
     return uint64_t(frame.size.x) * uint64_t(frame.size.y) * uint64_t(frame.size.z);
 }
 
-glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t place) {
+glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t index) {
     const auto x = uint64_t(frame.size.x), y = uint64_t(frame.size.y);
-    return {int(place % x), int(place / x % y), int(place / x / y)};
+    return {int(index % x), int(index / x % y), int(index / x / y)};
 }
 
 bool depth_is_along_z(const VolumeFrame& frame) {

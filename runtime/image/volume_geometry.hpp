@@ -18,8 +18,8 @@ inline constexpr int kMaxVolumeSide = 65536;  ///< maximum of voxels along one a
 /// The number of voxels: size.x * size.y * size.z.
 uint64_t voxel_count(const VolumeFrame& frame);
 
-/// The voxel whose number, as `indices` have it, is `place`.
-glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t place);
+/// The voxel whose number, as `indices` have it, is `index`.
+glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t index);
 
 /// True if depths count along Z_E, false if along the sight ray.
 bool depth_is_along_z(const VolumeFrame& frame);

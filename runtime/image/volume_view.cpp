@@ -202,10 +202,10 @@ Image view_slices(const Volume& volume, int first, int end, glm::ivec2 size) {
     const auto from = std::ranges::lower_bound(volume.indices, layer * uint64_t(first));
     const auto to = std::ranges::lower_bound(volume.indices, layer * uint64_t(end));
     // Indices ascend with k, so the voxels behind come first in this order.
-    for (auto place = to; place != from;) {
-        const auto i = size_t(--place - volume.indices.begin());
+    for (auto index = to; index != from;) {
+        const auto i = size_t(--index - volume.indices.begin());
         if (!is_shown(volume, i)) continue;
-        glm::ivec3 v = cell_of(frame, *place);
+        glm::ivec3 v = cell_of(frame, *index);
         if (lattice) v.x = frame.size.x - 1 - v.x, v.y = frame.size.y - 1 - v.y;
         const glm::dvec2 at = corner + cell * glm::dvec2(v);
         canvas.cover_rectangle(at, at + cell, volume.colors[i], volume.opacities[i]);

@@ -35,8 +35,8 @@ Changes changes_of(const Scene& scene) {
     Changes changes{std::vector<bool>(scene.models.size()),
                     std::vector<bool>(scene.objects.size())};
     for (const MovingPart& part : scene.motion->parts) {
-        if (part.part == ScenePart::object) changes.objects[part.place] = true;
-        if (part.part == ScenePart::model) changes.models[part.place] = true;
+        if (part.part == ScenePart::object) changes.objects[part.index] = true;
+        if (part.part == ScenePart::model) changes.models[part.index] = true;
     }
     for (size_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];

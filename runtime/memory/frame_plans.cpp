@@ -61,22 +61,22 @@ class FramePlanner {
 
   private:
     /// Plans moments of the frame. Returns false if one doesn't fit.
-    bool plan(const FramesToPlan& found, size_t place) {
-        const int frame = found.changed[place];
+    bool plan(const FramesToPlan& found, size_t index) {
+        const int frame = found.changed[index];
         const int at_once = samples_at_once(scene_, frame);
         for (const double moment : some_moments_of(scene_, frame))
-            if (!plan(found, place, moment, at_once)) return false;
+            if (!plan(found, index, moment, at_once)) return false;
         return true;
     }
 
     /// Plans a moment of the frame unless its plan equals that of the moment before. Returns false
     /// if it doesn't fit.
-    bool plan(const FramesToPlan& found, size_t place, double moment, int at_once) {
+    bool plan(const FramesToPlan& found, size_t index, double moment, int at_once) {
         Scene now = in_frame(scene_, moment, [&] { return scene_at(scene_, moment); });
         take_at_once(at_once, now.render);
         if (before_ && is_planned_like(*before_, now)) return true;
         FramePlan planned = in_frame(scene_, moment, [&] {
-            FramePlan made{found.changed[place], std::move(now), {}};
+            FramePlan made{found.changed[index], std::move(now), {}};
             check_placements(made.scene);
             made.plan = plan_scene(made.scene, meshes_, device_, solids_);
             return made;
@@ -90,7 +90,7 @@ class FramePlanner {
         }
         if (!maximum_ || bytes_of(planned.plan) > bytes_of(maximum_->plan)) {
             maximum_ = std::move(planned);
-            place_ = place;
+            max_index_ = index;
         }
         return true;
     }
@@ -100,15 +100,15 @@ class FramePlanner {
     }
 
     /// Plans a frame that wasn't chosen. Returns false if it doesn't fit.
-    bool plan_new(const FramesToPlan& found, size_t place) {
-        if (std::ranges::binary_search(found.chosen, place)) return true;
-        return plan(found, place);
+    bool plan_new(const FramesToPlan& found, size_t index) {
+        if (std::ranges::binary_search(found.chosen, index)) return true;
+        return plan(found, index);
     }
 
     /// Searches around the frame with the maximum for a larger one between the chosen frames.
     bool climb(const FramesToPlan& found) {
         for (size_t step = found.step / 2; step > 0; step /= 2) {
-            const size_t middle = place_;
+            const size_t middle = max_index_;
             if (middle >= step && !plan_new(found, middle - step)) return false;
             if (middle + step < found.changed.size() && !plan_new(found, middle + step))
                 return false;
@@ -123,7 +123,7 @@ class FramePlanner {
     SolidExtents solids_;
     std::optional<Scene> before_;
     std::optional<FramePlan> maximum_, refused_;
-    size_t place_ = 0;  ///< index of the maximum among the frames that change
+    size_t max_index_ = 0;  ///< index of the maximum among the frames that change
     int plans_ = 0;
 };
 
@@ -160,8 +160,8 @@ void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& m
         }
         before = std::move(now);
     };
-    for (const size_t place : found.chosen) {
-        const int frame = found.changed[place], at_once = samples_at_once(scene, frame);
+    for (const size_t index : found.chosen) {
+        const int frame = found.changed[index], at_once = samples_at_once(scene, frame);
         for (const double moment : some_moments_of(scene, frame))
             in_frame(scene, moment, [&] { check(moment, at_once); });
     }

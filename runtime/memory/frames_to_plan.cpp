@@ -90,8 +90,8 @@ void fill_evenly(FramesToPlan& found) {
     const size_t taken = std::min(found.chosen.size(), kMaxPlannedKeys);
     const size_t room = kMaxPlannedFrames - taken;
     found.step = (found.changed.size() + room - 1) / room;
-    for (size_t place = 0; place < found.changed.size(); place += found.step)
-        found.chosen.push_back(place);
+    for (size_t index = 0; index < found.changed.size(); index += found.step)
+        found.chosen.push_back(index);
     found.chosen.push_back(found.changed.size() - 1);
     std::ranges::sort(found.chosen);
     // Not std::ranges::unique, which clang 14 can't compile with GCC's library.

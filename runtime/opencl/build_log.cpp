@@ -10,7 +10,7 @@
 namespace voxelume {
 
 std::string first_errors(std::string_view log) {
-    constexpr size_t kMost = 5, kLongest = 200;
+    constexpr size_t kMaxErrors = 5, kLongest = 200;
     std::vector<std::string_view> lines, errors;
     for (size_t begin = 0; begin < log.size();) {
         const size_t end = std::min(log.find('\n', begin), log.size());
@@ -21,10 +21,11 @@ std::string first_errors(std::string_view log) {
     }
     if (errors.empty()) errors = lines;
     std::string text;
-    for (const std::string_view line : std::span(errors).first(std::min(errors.size(), kMost)))
+    for (const std::string_view line : std::span(errors).first(std::min(errors.size(), kMaxErrors)))
         text += fmt::format("{}{}{}", text.empty() ? "" : "\n  ", line.substr(0, kLongest),
                             line.size() > kLongest ? "..." : "");
-    if (errors.size() > kMost) text += fmt::format("\n  and {} more", errors.size() - kMost);
+    if (errors.size() > kMaxErrors)
+        text += fmt::format("\n  and {} more", errors.size() - kMaxErrors);
     return text;
 }
 

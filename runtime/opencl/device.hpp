@@ -40,8 +40,8 @@ struct DeviceInfo {
     int compute_units = 0;
     int clock = 0;               ///< MHz; 0 where the driver doesn't say
     bool shares_memory = false;  ///< with the host, as GPUs inside of processors do
-    std::string card;    ///< the PCI place of its card, equal for all drivers; empty where unknown
-    int lanes = 1;       ///< number of rays that one work-item of a packet kernel handles
+    std::string card;  ///< the PCI address of its card, equal for all drivers; empty where unknown
+    int lanes = 1;     ///< number of rays that one work-item of a packet kernel handles
     int work_group = 0;  ///< number of work-items in every group; 0: chosen by kernel and kind of
                          ///< device
     uint32_t batch_rays = kCpuBatchRays;  ///< the maximum number of rays that pass through the

@@ -15,15 +15,15 @@ namespace voxelume {
 namespace {
 
 /// A slot for one running compiler; the machine has as many slots as cores.
-class CompilerPlace {
+class CompilerSlot {
   public:
-    CompilerPlace() { places().acquire(); }
-    ~CompilerPlace() { places().release(); }
-    CompilerPlace(const CompilerPlace&) = delete;
-    CompilerPlace& operator=(const CompilerPlace&) = delete;
+    CompilerSlot() { slots().acquire(); }
+    ~CompilerSlot() { slots().release(); }
+    CompilerSlot(const CompilerSlot&) = delete;
+    CompilerSlot& operator=(const CompilerSlot&) = delete;
 
   private:
-    static std::counting_semaphore<>& places() {
+    static std::counting_semaphore<>& slots() {
         static std::counting_semaphore<> left(std::max(1u, std::thread::hardware_concurrency()));
         return left;
     }
@@ -31,7 +31,7 @@ class CompilerPlace {
 
 BuiltProgram build_part(const CompilerTarget& target, const std::string& label,
                         const KernelPart& part, const ProgramText& whole) {
-    const CompilerPlace place;
+    const CompilerSlot slot;
     try {
         return build_with_binary(target, label, part.text);
     } catch (const Error&) {

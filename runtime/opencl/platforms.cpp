@@ -43,18 +43,18 @@ std::string reason_unusable(const cl::Device& device) {
     return {};
 }
 
-/// The PCI place of a card, by the extension cl_khr_pci_bus_info.
+/// The PCI address of a card, by the extension cl_khr_pci_bus_info.
 std::string card_of(const cl::Device& device) {
     constexpr cl_device_info kPciBusInfo = 0x410F;
     struct {
         cl_uint domain, bus, device, function;
-    } place{};
+    } address{};
     size_t bytes = 0;
-    if (clGetDeviceInfo(device(), kPciBusInfo, sizeof place, &place, &bytes) != CL_SUCCESS ||
-        bytes != sizeof place)
+    if (clGetDeviceInfo(device(), kPciBusInfo, sizeof address, &address, &bytes) != CL_SUCCESS ||
+        bytes != sizeof address)
         return {};
-    return fmt::format("{:04x}:{:02x}:{:02x}.{:x}", place.domain, place.bus, place.device,
-                       place.function);
+    return fmt::format("{:04x}:{:02x}:{:02x}.{:x}", address.domain, address.bus, address.device,
+                       address.function);
 }
 
 std::string note_on(const DeviceInfo& info) {

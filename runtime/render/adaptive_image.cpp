@@ -19,8 +19,8 @@ std::vector<uint32_t> pixels_in(const std::vector<uint32_t>& pixels, int width, 
                                 glm::ivec2 size) {
     std::vector<uint32_t> result;
     for (const uint32_t pixel : pixels) {
-        const glm::ivec2 place(int(pixel % uint32_t(width)), int(pixel / uint32_t(width)));
-        const glm::ivec2 at = place - first;
+        const glm::ivec2 position(int(pixel % uint32_t(width)), int(pixel / uint32_t(width)));
+        const glm::ivec2 at = position - first;
         if (at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y)
             result.push_back(uint32_t(at.y) * uint32_t(size.x) + uint32_t(at.x));
     }

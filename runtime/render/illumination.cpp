@@ -120,7 +120,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
         shade_.set_emitters(emitters_);
     }
     if (features.sky_rays != VXL_EMITTERS_NONE) {
-        if (emitters_.count > 0) shade_.set_sky_chance(1 - kEmittersBesideSky);
+        if (emitters_.count > 0) shade_.set_sky_chance(1 - kEmitterChanceWithSky);
         extend_->set_sky(shade_.sky().map);
         if (medium_paths_) medium_paths_->set_sky(shade_.sky().map);
     }

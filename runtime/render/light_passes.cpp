@@ -166,7 +166,7 @@ LightPass mattes_of(const Scene& scene) {
 }
 
 /// True if mattes are a pass.
-bool ranks_mattes_anew(const RenderSettings& render) {
+bool ranks_mattes_again(const RenderSettings& render) {
     const ImageChannels& channels = render.channels;
     return (channels.object_matte || channels.material_matte) && render.earlier &&
            !render.noise.is_given();
@@ -196,12 +196,12 @@ std::vector<LightPass> light_passes(const Scene& scene) {
             passes.push_back(
                 {group.empty() ? "light_rest" : "light_" + group, group_alone(scene, group)});
     for (LightPass& pass : passes) go_on(pass);
-    if (ranks_mattes_anew(scene.render)) passes.push_back(mattes_of(scene));
+    if (ranks_mattes_again(scene.render)) passes.push_back(mattes_of(scene));
     return passes;
 }
 
 void leave_mattes_to_passes(RenderSettings& render) {
-    if (ranks_mattes_anew(render))
+    if (ranks_mattes_again(render))
         render.channels.object_matte = render.channels.material_matte = false;
 }
 

@@ -43,7 +43,7 @@ void add_movement(const Scene& now, const Scene& then, const std::string& name, 
         if (objects[i] == 0) continue;
         const glm::dvec3 point(x[i], y[i], z[i]);
         const glm::dvec3 moved(maps[objects[i] - 1] * glm::dvec4(point, 1));
-        const auto from = place_in_picture(now, point), to = place_in_picture(then, moved);
+        const auto from = position_in_picture(now, point), to = position_in_picture(then, moved);
         if (!from || !to) continue;
         const double moved_right = to->x - from->x;
         // The shorter way may cross the picture's side.
@@ -56,13 +56,13 @@ void add_movement(const Scene& now, const Scene& then, const std::string& name, 
 
 }  // namespace
 
-std::optional<glm::dvec2> place_in_picture(const Scene& scene, const glm::dvec3& point) {
+std::optional<glm::dvec2> position_in_picture(const Scene& scene, const glm::dvec3& point) {
     const Observer& observer = scene.observer;
     const glm::dvec3 p = glm::transpose(observer.world_from_observer) * (point - observer.position);
-    const std::optional<glm::dvec2> place =
+    const std::optional<glm::dvec2> on_display =
         shape_row(observer.display).ray_through(observer.display, p);
-    if (!place) return {};
-    return (*place + 1.0) / 2.0 * glm::dvec2(frame_size(scene.render));
+    if (!on_display) return {};
+    return (*on_display + 1.0) / 2.0 * glm::dvec2(frame_size(scene.render));
 }
 
 void add_motion(const Scene& scene, int frame, Image& image) {

@@ -14,7 +14,7 @@ namespace voxelume {
 
 /// The position of a world's point in a scene's whole picture: columns from the left and rows from
 /// the top, in pixels. Empty for points that no sight ray meets, such as those behind a pyramid.
-std::optional<glm::dvec2> place_in_picture(const Scene& scene, const glm::dvec3& point);
+std::optional<glm::dvec2> position_in_picture(const Scene& scene, const glm::dvec3& point);
 
 /// Adds the planes forward.u, forward.v, backward.u and backward.v to an image with P and objectId
 /// of a frame of `scene`: pixels to the right and up, as compositors count. They follow the tracks

@@ -19,7 +19,7 @@ class NoiseReached {
 
     /// Adds a tile's relative standard error.
     void add(double error) {
-        squares_ += Wide(std::min(error * error, kMost) * kUnit);
+        squares_ += Wide(std::min(error * error, kMaxSquare) * kUnit);
         ++tiles;
     }
     NoiseReached& operator+=(const NoiseReached& other) {
@@ -33,7 +33,7 @@ class NoiseReached {
 
   private:
     __extension__ using Wide = unsigned __int128;
-    static constexpr double kUnit = 0x1p64, kMost = 0x1p30;
+    static constexpr double kUnit = 0x1p64, kMaxSquare = 0x1p30;
     Wide squares_ = 0;  ///< in units of 2^-64
 };
 

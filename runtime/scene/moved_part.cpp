@@ -49,7 +49,7 @@ void MovedPart::form() {
         case ScenePart::world:
             return build_world();
         case ScenePart::material:
-            if (const auto& checker = scene_.materials[part_.place].checker)
+            if (const auto& checker = scene_.materials[part_.index].checker)
                 check_checker(*checker, refusal("checker"));
             return;
         case ScenePart::model:
@@ -57,7 +57,7 @@ void MovedPart::form() {
         case ScenePart::object:
             return place_object();
         case ScenePart::light: {
-            Light& light = scene_.lights[part_.place];
+            Light& light = scene_.lights[part_.index];
             return set_light(type_of(light), light_, refusal(""), light);
         }
         case ScenePart::observer:
@@ -84,7 +84,7 @@ void MovedPart::place_object() {
         links[parent.empty() ? links.size() - 1 : parent.front()] = affine_from_factors(factors);
     }
     const glm::dmat4 map = product_of(links);
-    Object& object = scene_.objects[part_.place];
+    Object& object = scene_.objects[part_.index];
     if (is_safely_invertible(stretch_of(glm::dmat3(map))))
         object.world_from_object = map;
     else
@@ -154,7 +154,7 @@ Slot MovedPart::slot(const ValueReference& value, const SolidPath& solid) {
         Slot operator()(const ValueRow<Solid>* row) { return row->slot(of.solid_at(solid)); }
         Slot operator()(const ValueRow<Factors>* row) { return row->slot(factors()); }
         Slot operator()(const ValueRow<Object>* row) {
-            return row->slot(of.scene_.objects[of.part_.place]);
+            return row->slot(of.scene_.objects[of.part_.index]);
         }
         Slot operator()(const ValueRow<LightParameters>* row) { return row->slot(of.light_); }
         Slot operator()(const ValueRow<ObserverParameters>* row) { return row->slot(of.observer_); }
@@ -162,14 +162,14 @@ Slot MovedPart::slot(const ValueReference& value, const SolidPath& solid) {
             return row->slot(of.observer_.display);
         }
 
-        Material& material() { return of.scene_.materials[of.part_.place]; }
-        Model& model() { return of.scene_.models[of.part_.place]; }
+        Material& material() { return of.scene_.materials[of.part_.index]; }
+        Model& model() { return of.scene_.models[of.part_.index]; }
     };
     return std::visit(Finder{*this, medium, solid, placement}, value);
 }
 
 Solid& MovedPart::solid_at(const SolidPath& path) {
-    Model& model = scene_.models[part_.place];
+    Model& model = scene_.models[part_.index];
     size_t step = 0;
     Solid* solid = path.is_cut ? &model.cuts[path.parts[step++]] : &*model.solid;
     while (step < path.parts.size()) solid = &solid->parts[path.parts[step++]];

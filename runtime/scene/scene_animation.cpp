@@ -12,9 +12,9 @@ namespace voxelume {
 const std::filesystem::path& FileSequence::at(double frame) const {
     const auto count = int64_t(files.size());
     const int64_t step = int64_t(std::floor(frame)) - start;
-    const int64_t place =
+    const int64_t index =
         loop ? (step % count + count) % count : std::clamp<int64_t>(step, 0, count - 1);
-    return files[size_t(place)];
+    return files[size_t(index)];
 }
 
 bool moves(const Scene& scene) {

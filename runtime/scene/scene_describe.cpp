@@ -50,10 +50,11 @@ std::string model_text(const Model& model) {
 
 std::string light_text(const Light& light) {
     const LightType& type = type_of(light);
-    const bool has_place = type.has_position;
-    return fmt::format(
-        "light \"{}\": {}, {} {}, intensity {}", light.name, type.name, has_place ? "at" : "along",
-        vector_text(has_place ? light.position : light.direction), vector_text(light.intensity));
+    const bool has_position = type.has_position;
+    return fmt::format("light \"{}\": {}, {} {}, intensity {}", light.name, type.name,
+                       has_position ? "at" : "along",
+                       vector_text(has_position ? light.position : light.direction),
+                       vector_text(light.intensity));
 }
 
 std::string density_text(const Density& density) {

@@ -80,7 +80,7 @@ struct ValueOrigin {
 /// A part of the scene that tracks or numbered files change.
 struct MovingPart {
     ScenePart part = ScenePart::world;
-    size_t place = 0;          ///< index in the scene's list
+    size_t index = 0;          ///< index in the scene's list
     std::string path;          ///< path for messages
     bool only_placed = false;  ///< an object that changes by its placement alone
     std::vector<Track> tracks;

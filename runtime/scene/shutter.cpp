@@ -71,15 +71,15 @@ size_t worlds_of(const Scene& scene, size_t frames) {
 int samples_at_once(const Scene& scene, double frame) {
     const int first = scene.render.first_sample, samples = scene.render.samples;
     if (stands_still(scene, frame)) return samples;
-    int most = 0, row = 0;
+    int maximum = 0, row = 0;
     Scene shown = scene_at(scene, moment_of(scene, frame, first));
     for (int sample = first; sample < first + samples; ++sample) {
         Scene now = scene_at(scene, moment_of(scene, frame, sample));
         row = now == shown ? row + 1 : 1;
-        most = std::max(most, row);
+        maximum = std::max(maximum, row);
         shown = std::move(now);
     }
-    return most;
+    return maximum;
 }
 
 bool is_blurred(const Scene& scene, double frame) {

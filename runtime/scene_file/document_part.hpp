@@ -14,7 +14,7 @@ namespace voxelume {
 struct DocumentPart {
     ScenePart part = ScenePart::world;
     size_t number = 0;                 ///< number in the document
-    size_t place = 0;                  ///< index in the scene's list
+    size_t index = 0;                  ///< index in the scene's list
     std::string name;                  ///< name of a material or model
     std::string path;                  ///< path for messages
     const JsonValue* value = nullptr;  ///< value in the document

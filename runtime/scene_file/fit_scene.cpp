@@ -48,8 +48,8 @@ class ObjectsBox {
     Bounds find() {
         std::vector<const MovingPart*> parts;
         for (const MovingPart& part : motion_.parts) {
-            if (part.part == ScenePart::object) object_moves_[part.place] = true;
-            if (part.part == ScenePart::model) model_moves_[part.place] = true;
+            if (part.part == ScenePart::object) object_moves_[part.index] = true;
+            if (part.part == ScenePart::model) model_moves_[part.index] = true;
             if (part.part == ScenePart::object || part.part == ScenePart::model)
                 parts.push_back(&part);
         }

@@ -68,11 +68,11 @@ class PartCheck {
                 read_links(SceneFields(value, "object"));
                 if (!part_.only_placed) {
                     const JsonValue rest = members_of(value.json(), false);
-                    ObjectReader(scene_).read(SceneValue(rest, part_.path, file_), part_.place);
+                    ObjectReader(scene_).read(SceneValue(rest, part_.path, file_), part_.index);
                 }
                 return;
             case ScenePart::light:
-                read_light(value, part_.place);
+                read_light(value, part_.index);
                 return;
             case ScenePart::observer:
                 read_observer(value, scene_);

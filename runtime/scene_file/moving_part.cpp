@@ -46,7 +46,7 @@ class PartMaker {
     PartMaker(const DocumentPart& from, const Scene& scene, const AssetSearch& search)
         : from_(from), scene_(scene), search_(search), file_(scene.file.string()) {
         part_.part = from.part;
-        part_.place = from.place;
+        part_.index = from.index;
         part_.path = from.path;
         part_.only_placed = from.only_placed;
     }
@@ -171,7 +171,7 @@ class PartMaker {
     }
 
     void add_mesh_sequence(const SceneValue& value) {
-        const Model& model = scene_.models[part_.place];
+        const Model& model = scene_.models[part_.index];
         if (model.solid) return;
         const std::string_view key = model.voxels.empty() ? "mesh" : "voxels";
         const SceneFields fields(value, fmt::format("model:{}", key));

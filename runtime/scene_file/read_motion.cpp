@@ -10,7 +10,7 @@ namespace voxelume {
 namespace {
 
 /// The index of a part in the scene's list; a material's index differs from that in the document.
-size_t place_of(const DocumentPart& part, const Scene& scene) {
+size_t index_of_part(const DocumentPart& part, const Scene& scene) {
     if (part.part != ScenePart::material) return part.number;
     return size_t(std::ranges::find(scene.materials, part.name, &Material::name) -
                   scene.materials.begin());
@@ -71,9 +71,9 @@ class MotionReader {
     std::vector<DocumentPart> finish(Scene& scene) {
         std::vector<DocumentPart> parts;
         for (auto& [key, part] : parts_) {
-            part.place = place_of(part, scene);
+            part.index = index_of_part(part, scene);
             if (part.part == ScenePart::object) {
-                scene.objects[part.place].moves = std::ranges::any_of(part.tracks, is_placement);
+                scene.objects[part.index].moves = std::ranges::any_of(part.tracks, is_placement);
                 part.only_placed = std::ranges::all_of(part.tracks, is_placement);
             }
             parts.push_back(std::move(part));
@@ -87,7 +87,7 @@ class MotionReader {
         if (is_new)
             found->second = {.part = target.part,
                              .number = target.number,
-                             .place = 0,
+                             .index = 0,
                              .name = target.name,
                              .path = target.path,
                              .value = target.value,

@@ -89,10 +89,10 @@ void read_or_frame_observer(const SceneFields& fields, Scene& scene) {
 
 /// Calls `action` with the numbers that tracks give a part's value at their keys.
 template <class Part, class Action>
-void for_tracks(const SceneMotion& motion, ScenePart kind, size_t place, std::string_view key,
+void for_tracks(const SceneMotion& motion, ScenePart kind, size_t index, std::string_view key,
                 const Action& action) {
     for (const MovingPart& part : motion.parts) {
-        if (part.part != kind || part.place != place) continue;
+        if (part.part != kind || part.index != index) continue;
         for (const Track& track : part.tracks) {
             const auto* row = std::get_if<const ValueRow<Part>*>(&track.value);
             if (row && (*row)->key == key) action(track.keys.values);

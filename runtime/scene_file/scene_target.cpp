@@ -105,16 +105,16 @@ class PathWalker {
         if (is_at_end() || !steps_[next_].key.empty())
             path_.fail(fmt::format("which of {}? Write its place, counted from 0, as in \"{}[0]\"",
                                    what, what));
-        const size_t place = steps_[next_++].item;
+        const size_t index = steps_[next_++].item;
         if (list.type == JsonType::number)
             path_.fail(
                 fmt::format("{} is one number here; change it as a whole, or write it as a "
                             "list of numbers in the scene",
                             what));
-        if (place >= list.items.size())
-            path_.fail(fmt::format("there is no {}[{}]: {} has {} items", what, place, what,
+        if (index >= list.items.size())
+            path_.fail(fmt::format("there is no {}[{}]: {} has {} items", what, index, what,
                                    list.items.size()));
-        return list.items[place];
+        return list.items[index];
     }
 
     /// Finds the object, light, material or model that the path names.

@@ -7,7 +7,7 @@
 namespace voxelume {
 
 /// Bricks of a lattice, stored or not.
-inline size_t brick_places(const GridFrame& frame) {
+inline size_t brick_slots(const GridFrame& frame) {
     const glm::ivec3 bricks = frame.bricks();
     return size_t(bricks.x) * size_t(bricks.y) * size_t(bricks.z);
 }
@@ -15,7 +15,7 @@ inline size_t brick_places(const GridFrame& frame) {
 /// BrickGrid::slots.
 inline Buffer<uint32_t> allocate_slots(const Device& device, const char* name,
                                        const GridFrame& frame) {
-    return {device, name, brick_places(frame)};
+    return {device, name, brick_slots(frame)};
 }
 
 /// BrickGrid::occupancy, and other arrays with a bit for each voxel.

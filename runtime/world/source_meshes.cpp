@@ -26,16 +26,16 @@ glm::dmat4 space_from_voxels(const GridFrame& frame) {
     return map;
 }
 
-SourceRecord record_of(const SourcePlaces& places, const glm::dmat4& mesh_from_voxels,
+SourceRecord record_of(const SourceOffsets& offsets, const glm::dmat4& mesh_from_voxels,
                        double longest_edge) {
     SourceRecord record{};
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 4; ++column)
             record.mesh_from_voxels[4 * row + column] = float(mesh_from_voxels[column][row]);
-    record.nodes = places.nodes;
-    record.triangles = places.triangles;
-    record.worn = places.worn;
-    record.textures = places.textures;
+    record.nodes = offsets.nodes;
+    record.triangles = offsets.triangles;
+    record.worn = offsets.worn;
+    record.textures = offsets.textures;
     for (int axis = 0; axis < 3; ++axis)
         longest_edge = std::max(longest_edge, glm::length(glm::dvec3(mesh_from_voxels[axis])));
     record.reach = float(kReach * longest_edge);
@@ -52,20 +52,21 @@ double own_edge(ObjectLattices& lattices, const Object& object) {
 /// The records of all objects, those without a mesh included.
 std::vector<SourceRecord> records_of(const Scene& scene, AssetStore& meshes,
                                      const ListedSources& sources, const ListedInstances& listed,
-                                     const std::vector<SourcePlaces>& places) {
+                                     const std::vector<SourceOffsets>& offsets) {
     std::vector<SourceRecord> records(scene.objects.size(), record_of({}, glm::dmat4(1), 0));
     ObjectLattices lattices(scene, meshes);
     const glm::dmat4 world = space_from_voxels(world_frame(scene.world));
     for (const SourceObject& source : sources.objects) {
         const auto instance = std::ranges::find(listed.list, source.object, &Instance::object);
         SourceRecord& record = records[source.object];
-        const SourcePlaces& place = places[source.model];
+        const SourceOffsets& model_offsets = offsets[source.model];
         if (instance != listed.list.end()) {
-            record = record_of(place, space_from_voxels(listed.grids[instance->model]->frame), 0);
+            record = record_of(model_offsets,
+                               space_from_voxels(listed.grids[instance->model]->frame), 0);
             continue;
         }
         const Object& object = scene.objects[source.object];
-        record = record_of(place, glm::inverse(object.world_from_object) * world,
+        record = record_of(model_offsets, glm::inverse(object.world_from_object) * world,
                            own_edge(lattices, object));
     }
     return records;
@@ -95,7 +96,7 @@ SourceMeshes SourceMeshCache::meshes_of(const Scene& scene, AssetStore& meshes,
         models_ = std::move(models);
     }
     const std::vector<SourceRecord> records =
-        records_of(scene, meshes, sources, listed, joined_.places);
+        records_of(scene, meshes, sources, listed, joined_.offsets);
     return {joined_.words,
             Buffer<SourceRecord>(device_, "source objects", std::span<const SourceRecord>(records)),
             joined_.has_maps};

@@ -42,10 +42,10 @@ bool is_placed(const Scene& scene, const Object& object) {
 /// are visible inside.
 bool world_moves(const Scene& scene) {
     return any_part_changes(scene, [&](const MovingPart& part) {
-        if (part.part == ScenePart::object) return is_placed(scene, scene.objects[part.place]);
+        if (part.part == ScenePart::object) return is_placed(scene, scene.objects[part.index]);
         return part.part == ScenePart::model &&
                std::ranges::any_of(scene.objects, [&](const Object& object) {
-                   return size_t(object.model) == part.place && is_placed(scene, object);
+                   return size_t(object.model) == part.index && is_placed(scene, object);
                });
     });
 }

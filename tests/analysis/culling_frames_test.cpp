@@ -64,7 +64,7 @@ TEST(Culling, OfMomentsIsThatOfAnyOfThemUnlessTheyAreVeryMany) {
     EXPECT_EQ(visible_with(0.75, 4096, many), std::ssize(scene.objects));
 }
 
-TEST(Culling, StaysWithObjectsThatTheirTracksReadAnew) {
+TEST(Culling, StaysWithObjectsThatTheirTracksReadAgain) {
     Scene scene = scene_of("", R"({"target": "objects.left.material", "interpolation": "step",
 "keys": [{"frame": 1, "value": "red"}, {"frame": 2, "value": "special"}]})");
     AssetStore meshes;

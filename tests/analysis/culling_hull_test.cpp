@@ -100,7 +100,7 @@ TEST(CullingHull, HoldsWhatSightRaysPassOfTheWorld) {
         }
 }
 
-TEST(CullingHull, OfANarrowViewIsApartFromWhatStandsBesideIt) {
+TEST(CullingHull, OfANarrowViewIsApartFromWhatStandsNextToIt) {
     Observer observer;  // looks along z from the middle of the world's side
     observer.position = {0.5, -0.3, -2};
     observer.display.half_angles = {0.1, 0.1};

@@ -70,7 +70,7 @@ TEST(Culling, DoesNotHappenThroughALens) {
     EXPECT_EQ(visible_names(scene), "seen left right behind beyond ");
 }
 
-TEST(Culling, HoldsWhatAWideFilterSeesBesideTheImage) {
+TEST(Culling, HoldsWhatAWideFilterSeesNextToTheImage) {
     Scene scene = scene_of();
     scene.objects[1].world_from_object[3] = {-1.72, 0.1, 0.5, 1};
     scene.render.size = {8, 6};

@@ -14,7 +14,7 @@ namespace voxelume {
 
 /// The scene without its positions in files and texts and without its tracks, so that scenes from
 /// different sources compare equal.
-inline Scene without_places(Scene scene) {
+inline Scene without_source_positions(Scene scene) {
     const auto strip = [](auto& parts) {
         for (auto& part : parts) part.where = {};
     };
@@ -37,9 +37,10 @@ inline void expect_same(const v1::SceneDescription& description, const std::stri
                         const v1::SceneOptions& options = {}) {
     const Scene built = api::inside(v1::Scene::build(description, options));
     const Scene read = api::inside(v1::Scene::parse(text, "scene", options));
-    EXPECT_EQ(without_places(built), without_places(read));
+    EXPECT_EQ(without_source_positions(built), without_source_positions(read));
     EXPECT_EQ(moves(built), moves(read));
-    EXPECT_EQ(without_places(scene_at(built, 2.5)), without_places(scene_at(read, 2.5)));
+    EXPECT_EQ(without_source_positions(scene_at(built, 2.5)),
+              without_source_positions(scene_at(read, 2.5)));
 }
 
 /// The parts that every scene needs.

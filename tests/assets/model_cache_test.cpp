@@ -202,15 +202,15 @@ TEST_F(ModelCacheFiles, DamagedAndTruncatedEntriesAreMadeAgain) {
         const std::string whole = bytes_of(entry);
         // The places lie in the header, in the sizes, in the frames and at the end.
         for (const double part : {0.0, 0.01, 0.05, 0.1, 0.3, 0.6, 0.9, 1.0}) {
-            const size_t place = size_t(part * double(whole.size() - 1));
+            const size_t index = size_t(part * double(whole.size() - 1));
             std::string damaged = whole;
-            damaged[place] = char(damaged[place] ^ 0x10);
-            for (const std::string& bytes : {damaged, whole.substr(0, place)}) {
+            damaged[index] = char(damaged[index] ^ 0x10);
+            for (const std::string& bytes : {damaged, whole.substr(0, index)}) {
                 put_bytes(entry, bytes);
                 const Outcome outcome = show(scene, cache());
-                EXPECT_EQ(outcome.hash, expected) << place;
+                EXPECT_EQ(outcome.hash, expected) << index;
                 EXPECT_EQ(outcome.world.voxelized + outcome.world.from_cache, 1u);
-                EXPECT_EQ(outcome.world.meshes_read, 1u) << place;
+                EXPECT_EQ(outcome.world.meshes_read, 1u) << index;
                 EXPECT_EQ(bytes_of(entry), whole) << "it is made again";
             }
         }

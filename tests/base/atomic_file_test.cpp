@@ -50,7 +50,7 @@ TEST_F(AtomicFileTest, SeekingBackReplacesBytes) {
     EXPECT_EQ(bytes_of(folder / "a.bin"), "01ab456789");
 }
 
-TEST_F(AtomicFileTest, TheTemporaryFileIsHiddenBesideTheTarget) {
+TEST_F(AtomicFileTest, TheTemporaryFileIsHiddenNextToTheTarget) {
     AtomicFile file(folder / "a.bin");
     EXPECT_EQ(file.temporary().parent_path(), folder);
     EXPECT_THAT(file.temporary().filename().string(),

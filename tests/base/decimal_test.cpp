@@ -65,7 +65,7 @@ TEST(Decimal, IsBeyondFloatOnlyFromHalfwayToTheNextPowerOfTwo) {
     expect_like_strtof("0." + std::string(300, '0') + "1e310");
 }
 
-TEST(Decimal, BecomesZeroBelowHalfTheLeastFloat) {
+TEST(Decimal, BecomesZeroBelowHalfTheSmallestFloat) {
     expect_like_strtof("7.006492321624085354618e-46");
     expect_like_strtof("7.006492321624085354619e-46");
     expect_like_strtof("-1e-400");

@@ -59,7 +59,7 @@ TEST_F(MainMemory, HasNoRoomForMoreThanTheProcessLeavesOfIt) {
     limit_main_memory(0);
 }
 
-TEST_F(MainMemory, OfAGroupIsTheLeastOfThoseThatItIsIn) {
+TEST_F(MainMemory, OfAGroupIsTheMinimumOverItsParents) {
     limit("slurm/job_1/memory.max", "3000000");
     limit("slurm/job_1/step/memory.max", "max");
     limit("slurm/memory.max", "5000000");

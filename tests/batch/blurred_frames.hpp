@@ -97,7 +97,7 @@ inline std::vector<Image> samples_alone(const Scene& scene, int count = kSamples
 inline void expect_means(const Image& image, const std::vector<Image>& samples,
                          const std::string& plane) {
     const Plane<float>& values = image.planes.at(plane);
-    double most = 0;
+    double maximum = 0;
     for (size_t pixel = 0; pixel < values.size(); ++pixel) {
         double sum = 0, largest = 0;
         for (const Image& sample : samples) {
@@ -107,9 +107,9 @@ inline void expect_means(const Image& image, const std::vector<Image>& samples,
         }
         const double mean = sum / double(samples.size());
         ASSERT_NEAR(double(values[pixel]), mean, 5e-7 * largest) << plane << " of " << pixel;
-        most = std::max(most, largest - mean);
+        maximum = std::max(maximum, largest - mean);
     }
-    EXPECT_GT(most, 0.05) << plane << " doesn't change";
+    EXPECT_GT(maximum, 0.05) << plane << " doesn't change";
 }
 
 }  // namespace voxelume

@@ -84,7 +84,7 @@ TEST_P(RenderFrames, GivesTheFramesInTheOrderAskedForAndTheirReports) {
     EXPECT_EQ(results.outcome.one_by_one_from, std::nullopt);
 }
 
-TEST_P(RenderFrames, GivesVolumesAloneOrBesideImages) {
+TEST_P(RenderFrames, GivesVolumesAloneOrAlongsideImages) {
     RenderReport report;
     const Volume expected = render_volume(test_device(), scene_at(moving_scene(), 3), report);
     for (const bool image : {false, true}) {

@@ -19,8 +19,8 @@ std::vector<Ray> picture_rays(const GridFrame& frame) {
     const glm::dvec3 up = glm::cross(right, ahead);
     const double half = std::tan(glm::radians(20.0));
     std::vector<Ray> rays;
-    for (int place = 0; place < kPictureSide * kPictureSide; ++place) {
-        const int tile = place / 16, pixel = place % 16;
+    for (int index = 0; index < kPictureSide * kPictureSide; ++index) {
+        const int tile = index / 16, pixel = index % 16;
         const int column = tile % (kPictureSide / 4) * 4 + pixel % 4;
         const int row = tile / (kPictureSide / 4) * 4 + pixel / 4;
         const double u = (2.0 * column + 1) / kPictureSide - 1,

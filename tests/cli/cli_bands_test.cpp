@@ -98,7 +98,7 @@ TEST_F(CliBandsTest, FramesAreThoseOfWholeImages) {
     EXPECT_THAT(again.err, HasSubstr("2 of 2 frames are there already"));
 }
 
-TEST_F(CliBandsTest, VolumetricImagesBesideThemAreWhole) {
+TEST_F(CliBandsTest, VolumetricImagesAlongsideThemAreWhole) {
     const std::string line =
         "render scene.json -q --stats-json stats.json -o a.png --volume a.nrrd";
     ASSERT_EQ(run(line).exit_code, 0);

@@ -63,7 +63,7 @@ TEST_F(CliContinueTest, GoesOnWithPartsOfTheLight) {
     expect_continued("--channels P,objectId,motion");
 }
 
-TEST_F(CliContinueTest, RanksMattesAnew) {
+TEST_F(CliContinueTest, RanksMattesAgain) {
     expect_continued("--channels RGBA,CryptoObject,CryptoMaterial");
     expect_continued("--channels CryptoMaterial --multi-part");
     expect_continued("--channels CryptoObject,albedo,Z --device all/2");

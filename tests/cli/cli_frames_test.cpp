@@ -81,7 +81,7 @@ TEST_F(CliFramesTest, AnEmptyListIsAMistake) {
                 HasSubstr("--frames: 1 required FRAMES missing"));
 }
 
-TEST_F(CliFramesTest, ANameWithoutAPlaceForTheNumberGetsItBesideOneThatHasIt) {
+TEST_F(CliFramesTest, ANameWithoutAPlaceForTheNumberGetsItAlongsideOneThatHasIt) {
     write_moving_scene(2);
     ASSERT_EQ(run("render scene.json -o x.exr -o y.##.exr -q").exit_code, 0);
     EXPECT_THAT(names(),

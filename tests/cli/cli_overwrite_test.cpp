@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 using CliOverwriteTest = SceneProgramTest;
 
-TEST_F(CliOverwriteTest, NeverKeepsAFileBesideAStream) {
+TEST_F(CliOverwriteTest, NeverKeepsAFileAlongsideAStream) {
     put_bytes(folder / "keep.png", "mine");
     const std::string line =
         "sh -c 'voxelume render scene.json -q -o - -o {} "

@@ -47,7 +47,7 @@ TEST_F(CliQuiltTest, ViewsLieFromTheBottomLeftToTheTopRight) {
     EXPECT_NE(tile(0, 12), tile(20, 0));
 }
 
-TEST_F(CliQuiltTest, EyesLieBesideOneAnotherOrInFilesOfTheirOwn) {
+TEST_F(CliQuiltTest, EyesLieNextToOneAnotherOrInFilesOfTheirOwn) {
     const ProgramResult result =
         run("render scene.json -o pair.exr -o {eye}.exr -o {eye}/{eye}.png --stereo 1.5 "
             "--channels RGBA,objectId");

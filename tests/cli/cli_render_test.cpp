@@ -57,7 +57,7 @@ TEST_F(CliRenderTest, AFileHasTheChannelsThatAreAskedFor) {
                 HasSubstr("\"Q\" is none of"));
 }
 
-TEST_F(CliRenderTest, AVolumeBesideAFileWithoutColorIsPlannedAndMadeWithAllItNeeds) {
+TEST_F(CliRenderTest, AVolumeAlongsideAFileWithoutColorIsPlannedAndMadeWithAllItNeeds) {
     const std::string both = "render scene.json -o z.exr --volume v.nrrd --channels ";
     EXPECT_EQ(run(both + "Z --dry-run").out, run(both + "RGBA,Z --dry-run").out);
     EXPECT_EQ(run("render scene.json --dry-run").out, run("check scene.json").out);
@@ -165,7 +165,7 @@ TEST_F(CliRenderTest, ADeviceIsChosenByOptionThenByEnvironment) {
     unsetenv("VOXELUME_DEVICE");
 }
 
-TEST_F(CliRenderTest, AssetsAreFoundBesideTheSceneByOptionAndByEnvironment) {
+TEST_F(CliRenderTest, AssetsAreFoundNextToTheSceneByOptionAndByEnvironment) {
     std::filesystem::create_directory(folder / "models");
     write_mesh_scene("models/tetrahedron.obj", kTetrahedron);
     write_scene([](Json& scene) {

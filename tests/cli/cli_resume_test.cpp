@@ -163,7 +163,7 @@ TEST_F(CliResumeTest, AChangedCompanionOfAMeshMakesFramesStale) {
     EXPECT_EQ(count_rendered("--resume"), 0);
 }
 
-TEST_F(CliResumeTest, ChangedValuesBesideAHeaderMakeFramesStale) {
+TEST_F(CliResumeTest, ChangedValuesNextToAHeaderMakeFramesStale) {
     put_bytes(folder / "a.nhdr",
               "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n"
               "data file: a.raw\n\n");

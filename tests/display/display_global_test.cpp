@@ -122,8 +122,8 @@ double off_the_picture(const char* layout, int samples, double& mean) {
     int count = 0;
     mean = 0;
     for (size_t i = 0; i < volume.indices.size(); ++i) {
-        const auto place = int(volume.indices[i]);
-        const int column = place % 18, row = place / 18 % 16;
+        const auto index = int(volume.indices[i]);
+        const int column = index % 18, row = index / 18 % 16;
         // Image right is -X_E of a lattice, and down is -Y_E; rays have the pixels' order.
         const bool is_rays = layout == std::string("rays");
         const int u = is_rays ? column : 17 - column, v = is_rays ? row : 15 - row;

@@ -46,21 +46,21 @@ struct LatticeOracle {
         }
         return minimum;
     }
-    /// The place from which the observer sees a point: E, or for a box display the nearest point of
+    /// The point from which the observer sees a point: E, or for a box display the nearest point of
     /// the box's plane.
     glm::dvec3 eye(const glm::dvec3& p) const {
         if (frame.display.shape != DisplayShape::box) return observer.position;
         const glm::dvec3& ahead = observer.world_from_observer[2];
         return p - ahead * glm::dot(p - observer.position, ahead);
     }
-    uint64_t place(const glm::ivec3& v) const {
+    uint64_t index_of(const glm::ivec3& v) const {
         return uint64_t(v.x) +
                uint64_t(frame.size.x) * (uint64_t(v.y) + uint64_t(frame.size.y) * uint64_t(v.z));
     }
-    glm::ivec3 voxel(uint64_t place) const {
-        return {int(place % uint64_t(frame.size.x)),
-                int(place / uint64_t(frame.size.x) % uint64_t(frame.size.y)),
-                int(place / (uint64_t(frame.size.x) * uint64_t(frame.size.y)))};
+    glm::ivec3 voxel(uint64_t index) const {
+        return {int(index % uint64_t(frame.size.x)),
+                int(index / uint64_t(frame.size.x) % uint64_t(frame.size.y)),
+                int(index / (uint64_t(frame.size.x) * uint64_t(frame.size.y)))};
     }
 };
 
@@ -122,12 +122,12 @@ ExpectedVoxels expected_voxels(const LatticeOracle& lattice) {
                     return;
                 const double inside = lattice.inside(glm::dvec3(v) + 0.5);
                 if (inside < -1e-5) return;
-                expected.may.insert(lattice.place(v));
+                expected.may.insert(lattice.index_of(v));
                 const glm::dvec3 within = q - glm::dvec3(v);
                 const double depth = std::min(
                     {within.x, within.y, within.z, 1 - within.x, 1 - within.y, 1 - within.z});
                 if (seen.surely && depth > 0.04 && inside > 1e-5)
-                    expected.must.insert(lattice.place(v));
+                    expected.must.insert(lattice.index_of(v));
             });
         }
     return expected;
@@ -138,8 +138,8 @@ void expect_exactly_the_visible(const Scene& scene) {
     const auto [must, may] = expected_voxels({volume.frame, scene.observer});
     const std::set<uint64_t> shown(volume.indices.begin(), volume.indices.end());
     size_t holes = 0, extras = 0;
-    for (const uint64_t place : must) holes += !shown.contains(place);
-    for (const uint64_t place : shown) extras += !may.contains(place);
+    for (const uint64_t index : must) holes += !shown.contains(index);
+    for (const uint64_t index : shown) extras += !may.contains(index);
     EXPECT_EQ(holes, 0u) << "of " << must.size();
     EXPECT_EQ(extras, 0u) << "of " << shown.size();
     EXPECT_GT(must.size(), may.size() / 2);
@@ -244,7 +244,7 @@ TEST(LatticeOfManyVoxels, WithMoreLinesThanCanBeNumberedIsRefused) {
     }
 }
 
-TEST(LatticeCylinder, ClipsWhatLiesBesideIt) {
+TEST(LatticeCylinder, ClipsWhatLiesNextToIt) {
     for (const char* keys :
          {R"("shape": "box", "size": [1.6, 2.3, 2.1], "near": 1.5)",
           R"("shape": "pyramid", "angles": [27, 30], "near": 1.2, "far": 3.5)"}) {

@@ -88,15 +88,15 @@ TEST(LatticeMedium, HasTheOpacityAndColorOfAWayThroughEachVoxelAlongTheSightLine
     std::map<uint64_t, size_t> shown;
     for (size_t i = 0; i < volume.indices.size(); ++i) shown[volume.indices[i]] = i;
     size_t dense = 0;
-    for (uint64_t place = 0; place < voxel_count(volume.frame); ++place) {
-        const glm::ivec3 cell = cell_of(volume.frame, place);
+    for (uint64_t index = 0; index < voxel_count(volume.frame); ++index) {
+        const glm::ivec3 cell = cell_of(volume.frame, index);
         const double mean = mean_density(volume.frame, cell, kFogOnGround, 24);
-        const auto at = shown.find(place);
+        const auto at = shown.find(index);
         if (mean <= 0) {
-            EXPECT_EQ(at, shown.end()) << place;
+            EXPECT_EQ(at, shown.end()) << index;
             continue;
         }
-        ASSERT_NE(at, shown.end()) << place;
+        ASSERT_NE(at, shown.end()) << index;
         EXPECT_EQ(volume.kinds[at->second], VoxelKind::space);
         EXPECT_NEAR(volume.depths[at->second], 1 + 0.15 * (cell.z + 0.5), 1e-6);
         expect_fog(volume, at->second, mean * 0.15, 2e-5);

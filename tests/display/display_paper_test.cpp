@@ -105,15 +105,15 @@ TEST(PaperFormula, HoldsForEveryVoxelOfSightRays) {
             const Surface* surface = surface_at(x, y);
             const int end = surface ? int(surface->z) : 4;
             for (int k = 0; k < 4; ++k) {
-                const uint64_t place = uint64_t(u + 8 * (v + 6 * k));
+                const uint64_t index = uint64_t(u + 8 * (v + 6 * k));
                 SCOPED_TRACE(testing::Message() << "u " << u << " v " << v << " k " << k);
                 if (surface && k > end) {
-                    EXPECT_FALSE(number.contains(place)) << "behind the surface nothing is seen";
+                    EXPECT_FALSE(number.contains(index)) << "behind the surface nothing is seen";
                     continue;
                 }
                 ++expected;
-                ASSERT_TRUE(number.contains(place));
-                const size_t i = number[place];
+                ASSERT_TRUE(number.contains(index));
+                const size_t i = number[index];
                 const bool is_space = k < end;
                 EXPECT_EQ(p.kinds[i], is_space ? VoxelKind::space : VoxelKind::object);
                 EXPECT_EQ(p.objects[i], is_space ? 0 : surface->object);

@@ -50,9 +50,9 @@ double difference(Scene scene, int samples) {
     double sum = 0;
     int count = 0;
     for (size_t i = 0; i < volume.indices.size(); ++i) {
-        const auto place = int(volume.indices[i]);
+        const auto index = int(volume.indices[i]);
         // Image right is -X_E, and down is -Y_E.
-        const int u = kColumns - 1 - place % kColumns, v = kRows - 1 - place / kColumns % kRows;
+        const int u = kColumns - 1 - index % kColumns, v = kRows - 1 - index / kColumns % kRows;
         const size_t pixel = size_t(v * kColumns + u);
         const float alpha = picture.planes.at("A")[pixel];
         if (volume.objects[i] != 1 || std::abs(alpha - volume.opacities[i]) > 0.01f) continue;
@@ -125,8 +125,8 @@ TEST(DisplaySamples, MixTheFacesThatMeetInAVoxel) {
                                            2 * (0.5 + 0.1 * kSide), 2 * (0.5 + 0.1 * kFace)));
     const Volume volume = volume_of(scene);
     const auto color_at = [&](int x, int z) {
-        const uint64_t place = uint64_t(x) + 20 * (10 + 20 * uint64_t(z));
-        const auto found = std::ranges::find(volume.indices, place);
+        const uint64_t index = uint64_t(x) + 20 * (10 + 20 * uint64_t(z));
+        const auto found = std::ranges::find(volume.indices, index);
         EXPECT_NE(found, volume.indices.end()) << x << " " << z;
         return volume.colors[size_t(found - volume.indices.begin())];
     };
@@ -148,8 +148,8 @@ TEST(DisplaySamples, OfSurfacesThatLightPassesAreThoseOfOpaqueOnes) {
     for (size_t i = 0, j = 0; i < expected.indices.size(); ++i) {
         while (volume.indices[j] < expected.indices[i]) ++j;  // clear ones show the back, too
         const bool is_front = std::abs(expected.depths[i] - kFront) < 1e-4f;
-        const auto place = int(expected.indices[i]);
-        const int x = place % kColumns, y = place / kColumns % kRows;
+        const auto index = int(expected.indices[i]);
+        const int x = index % kColumns, y = index / kColumns % kRows;
         const bool is_rim = x < 4 || y < 4 || x >= kColumns - 4 || y >= kRows - 4;
         if (volume.indices[j] != expected.indices[i] || !is_front || is_rim) continue;
         ++found;

@@ -68,8 +68,8 @@ TEST(DisplaySkipping, BeamsEndTilesThatSeeNothingAndChangeNoVoxel) {
     EXPECT_EQ(many.sight_rays, 65536u);
     EXPECT_EQ(many.beams, 4096u);
     std::vector<bool> is_empty(64 * 64, true);
-    for (const uint64_t place : with.indices)
-        is_empty[place / 256 % 256 / 4 * 64 + place % 256 / 4] = false;
+    for (const uint64_t index : with.indices)
+        is_empty[index / 256 % 256 / 4 * 64 + index % 256 / 4] = false;
     const auto empty = uint64_t(std::ranges::count(is_empty, true));
     EXPECT_LT(empty, 4096u);
     EXPECT_LE(many.clear_beams, empty);

@@ -67,9 +67,9 @@ TEST_P(Rays, ShowExactlyTheFirstSurfaceOfEverySightRay) {
         ASSERT_TRUE(std::ranges::is_sorted(volume.indices));
         ASSERT_EQ(std::ranges::adjacent_find(volume.indices), volume.indices.end());
         std::vector<int> shown(97 * 71, kNone);
-        for (const uint64_t place : volume.indices) {
-            ASSERT_EQ(shown[place % (97 * 71)], kNone) << "two voxels on a ray";
-            shown[place % (97 * 71)] = int(place / (97 * 71));
+        for (const uint64_t index : volume.indices) {
+            ASSERT_EQ(shown[index % (97 * 71)], kNone) << "two voxels on a ray";
+            shown[index % (97 * 71)] = int(index / (97 * 71));
         }
         size_t certain = 0, wrong = 0;
         for (int v = 0; v < 71; ++v)
@@ -96,10 +96,10 @@ TEST_P(Rays, HoldSurfacesWithinHalfAStep) {
     const Volume volume = volume_of(scene);
     ASSERT_GT(volume.indices.size(), 20u);
     for (size_t i = 0; i < volume.indices.size(); ++i) {
-        const uint64_t place = volume.indices[i];
-        const double u = double(place % 60) + 0.5, v = double(place / 60 % 44) + 0.5;
+        const uint64_t index = volume.indices[i];
+        const double u = double(index % 60) + 0.5, v = double(index / 60 % 44) + 0.5;
         const double depth =
-            scene.observer.display.near + volume.frame.step * (double(place / (60 * 44)) + 0.5);
+            scene.observer.display.near + volume.frame.step * (double(index / (60 * 44)) + 0.5);
         const ManualRay ray = manual_ray(scene.observer, u, v, {60, 44});
         const double half = 0.5 * volume.frame.step * glm::length(ray.direction);
         EXPECT_LE(display_solids().distance(ray.start + ray.direction * depth), half + 1e-5);

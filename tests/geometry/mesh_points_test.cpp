@@ -39,7 +39,7 @@ size_t filled_cells(const Mesh& mesh, double edge) {
     return cells.size();
 }
 
-TEST(MeshPoints, AreCountedBesideLinesAndTriangles) {
+TEST(MeshPoints, AreCountedAlongsideLinesAndTriangles) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.triangles = {point_triangle(2), line_triangle(0, 1), {0, 1, 2}, point_triangle(0)};
@@ -76,7 +76,7 @@ TEST(MeshPoints, ThatAreNamedAgainCountOnce) {
     EXPECT_EQ(voxel_edge_of_points(mesh, 2.0 / 256), 2.0 / 64);
 }
 
-TEST(MeshPoints, BesideALineHaveVoxelsThatShow) {
+TEST(MeshPoints, NextToALineHaveVoxelsThatShow) {
     Mesh mesh = sphere_of_points(50, 1);
     mesh.triangles.push_back(line_triangle(0, 1));
     EXPECT_EQ(voxel_edge_of_points(mesh, 0.01), 0.02);

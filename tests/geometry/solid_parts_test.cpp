@@ -50,7 +50,7 @@ std::string formula_of(const std::vector<SolidPart>& parts) {
         text.append(open.size() - shared, ')');
         open.resize(shared);
         const FieldLink outer = shared < brackets.size() ? brackets[shared].link : link;
-        if (i > 0) text += outer == FieldLink::least ? " | " : " & ";
+        if (i > 0) text += outer == FieldLink::minimum ? " | " : " & ";
         for (size_t k = shared; k < brackets.size(); ++k) {
             text += '(';
             open.push_back(brackets[k].number);

@@ -92,7 +92,7 @@ TEST(SurfaceExtent, FacesThatTheWorldCutsAreNoSurface) {
     EXPECT_EQ(area.shadows, glm::dvec3(0, 2 * 4 * 6, 0));
 }
 
-TEST(SurfaceExtent, TrianglesThatLieOnOneAnotherCountOnceAtLeast) {
+TEST(SurfaceExtent, TrianglesThatLieOnOneAnotherCountAtLeastOnce) {
     const Mesh ring = wavy_ring(300, 200);
     const double once = mesh_areas(ring).all.total;
     EXPECT_LE(mesh_areas(ring).min.total, once);

@@ -165,7 +165,7 @@ constexpr unsigned kSeed = 6126;
 const unsigned kSeeds = is_exhaustive() ? 8 : 3;
 
 /// True if `one` equals `other`, or is `other` seen through one voxel of glass more or less.
-bool is_beside(double one, double other, double glass) {
+bool is_next_to(double one, double other, double glass) {
     const double a = one - glass, b = other - glass;
     return std::min({std::abs(a - b), std::abs(a - (1 - kOpacity) * b),
                      std::abs(b - (1 - kOpacity) * a)}) < 2e-6;
@@ -185,8 +185,8 @@ TEST_F(InstanceInGlass, ExactBodiesOfWholeVoxelsAreSeenWhereTheirCubesAre) {
             const Image exact = shown(model);
             for (size_t c = 0; c < 3; ++c)
                 for (size_t pixel = 0; pixel < cubes.planes.at("R").size(); ++pixel)
-                    ASSERT_TRUE(is_beside(exact.planes.at(kColors[c])[pixel],
-                                          cubes.planes.at(kColors[c])[pixel], kGlass[c]))
+                    ASSERT_TRUE(is_next_to(exact.planes.at(kColors[c])[pixel],
+                                           cubes.planes.at(kColors[c])[pixel], kGlass[c]))
                         << model << " pixel " << pixel << ", seed " << kSeed + i;
         }
     }

@@ -166,7 +166,7 @@ class PlacementPair {
         if (is_promised(near, farther, i) &&
             (is_promised(far, nearer, i) || is_outline(near, nearer, i)))
             return Cause::lattice;
-        return cause_beside(i, a, b);
+        return cause_nearby(i, a, b);
     }
 
   private:
@@ -175,8 +175,8 @@ class PlacementPair {
         if (is_alike(without_samples(scene_), false, plain_, i)) return Cause::sampled;
         if (is_alike(scene_, true, kept_, i)) return Cause::others;
         if (is_alike(without_samples(scene_), true, plain_kept_, i)) return Cause::others;
-        const Cause kept = cause_beside(i, a, pixel_of(kept_[1], i));
-        const Cause cause = cause_beside(i, a, b);
+        const Cause kept = cause_nearby(i, a, pixel_of(kept_[1], i));
+        const Cause cause = cause_nearby(i, a, b);
         return cause == Cause::unexplained && kept != cause ? Cause::others : cause;
     }
 
@@ -255,27 +255,27 @@ class PlacementPair {
     /// Why a pixel differs when nothing is known to differ about its surface: the world's picture
     /// from points next to the observer changes as much; or it shows another object's surface at
     /// the same point, in which a ray from there may begin.
-    Cause cause_beside(size_t i, const Pixel& a, const Pixel& b) {
-        const Beside near = beside(i, a, b, rounding(), moved_);
+    Cause cause_nearby(size_t i, const Pixel& a, const Pixel& b) {
+        const NearbyViews near = nearby(i, a, b, rounding(), moved_);
         if (near.is_seen && near.is_as_bright) return Cause::edge;
         if (near.is_seen && near.touch) return Cause::touch;
-        const Beside far = beside(i, a, b, 100 * rounding(), moved_far_);
+        const NearbyViews far = nearby(i, a, b, 100 * rounding(), moved_far_);
         return far.is_seen && far.is_as_bright ? Cause::far_edge : Cause::unexplained;
     }
 
     /// What the world's picture shows from points near the observer, within a distance.
-    struct Beside {
+    struct NearbyViews {
         bool is_seen = false;       ///< they show the object of the other picture
         bool is_as_bright = false;  ///< the other picture's light lies within the range of theirs
         bool touch = false;         ///< they show another object at the same point
     };
-    Beside beside(size_t i, const Pixel& a, const Pixel& b, double distance,
-                  std::vector<Image>& moved) const {
+    NearbyViews nearby(size_t i, const Pixel& a, const Pixel& b, double distance,
+                       std::vector<Image>& moved) const {
         for (int k = 0; moved.size() < 16; ++k) {
             const double angle = k * 0.7853981634 + 0.2, by = distance * (1 + k / 8) / 2;
             moved.push_back(world_.picture(by * std::cos(angle), by * std::sin(angle)));
         }
-        Beside found;
+        NearbyViews found;
         found.is_seen = a.object == b.object;
         glm::dvec3 low = a.light, high = a.light;
         for (const Image& image : moved) {

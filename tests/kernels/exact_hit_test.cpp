@@ -23,7 +23,7 @@ constexpr uint64_t kHitSeed = 20261122;
 const glm::ivec3 kHitGrid(43, 37, 29);
 constexpr int64_t kOne = int64_t{1} << 22;  // direction 1
 
-TEST(RationalTriangle, IsMetOnItsCornersAndEdgesAndNotBeside) {
+TEST(RationalTriangle, IsMetOnItsCornersAndEdgesAndNotNextToThem) {
     const Corners triangle = {oracle::rational_point({1, 1, 5}), oracle::rational_point({4, 1, 5}),
                               oracle::rational_point({1, 3, 8})};
     const auto meets = [&](const dvec3& o, const dvec3& d) {
@@ -218,8 +218,8 @@ TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
         for (int side = 0; side < 6 && !outline; ++side) {
             dvec3 moved(0);
             moved[side / 2] = side % 2 ? kAside : -kAside;
-            const auto [beside, same] = exact_ray(grid, rays[i], moved);
-            const auto t = exact.first_hit(beside, same);
+            const auto [moved_origin, same] = exact_ray(grid, rays[i], moved);
+            const auto t = exact.first_hit(moved_origin, same);
             outline = !t || std::abs(mpq_class(t->t - truth->t).get_d()) > kOtherPlace;
         }
         if (outline) continue;

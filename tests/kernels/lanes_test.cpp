@@ -98,10 +98,10 @@ std::vector<Case> cases_of(uint32_t lanes) {
     };
     // These cases test a function that answers in all lanes of a packet: whether the packet holds
     // an index. An empty mask follows.
-    for (const uint32_t place : {0u, 1u, 6u, 7u, 8u, 15u, 37u, 63u})
+    for (const uint32_t index : {0u, 1u, 6u, 7u, 8u, 15u, 37u, 63u})
         cases.push_back({"(lane_int)(lanes_any(LANE_MASK(LANES_NUMBERS + (int)first == " +
-                             std::to_string(place) + ")) != 0)",
-                         [=](uint32_t at) { return int32_t(at / lanes == place / lanes); }});
+                             std::to_string(index) + ")) != 0)",
+                         [=](uint32_t at) { return int32_t(at / lanes == index / lanes); }});
     cases.push_back({"(lane_int)(lanes_any(LANE_MASK(n != n)) != 0)", [](uint32_t) { return 0; }});
     return cases;
 }

@@ -94,7 +94,7 @@ TEST(Optics, O2BallTurnsRaysByTwiceIncidenceLessRefraction) {
     }
 }
 
-TEST(Optics, O3PrismDeviatesTheLeastOnTheSymmetricPath) {
+TEST(Optics, O3PrismDeviatesMinimallyOnTheSymmetricPath) {
     constexpr double kApex = 60 * kDegree;
     for (const double ior : {1.25, 1.5, 1.7}) {
         const double symmetric = std::asin(ior * std::sin(kApex / 2));

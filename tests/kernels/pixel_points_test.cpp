@@ -237,11 +237,11 @@ TEST(PixelPoints, ErrorsOfTwoDecisionsHardlyAddUp) {
     const auto paired = [](const SquarePoint& p, const SquarePoint& q) {
         return (p.x < 0.5) == (q.x < 0.5) ? 1.0 : -1.0;
     };
-    for (const auto& [samples, most] :
+    for (const auto& [samples, maximum] :
          {std::pair{1u, 1.5}, std::pair{4u, 1.3}, std::pair{64u, 1.1}}) {
         const std::array<double, 3> errors = square_errors(samples, paired);
         for (size_t level = 1; level < 3; ++level)
-            EXPECT_LT(errors[level], std::ldexp(errors[0], -2 * int(level)) * most)
+            EXPECT_LT(errors[level], std::ldexp(errors[0], -2 * int(level)) * maximum)
                 << samples << " samples, squares of 2^" << level;
     }
 }

@@ -223,8 +223,8 @@ TEST(WalkCases, T18AWorldWithoutVoxelsEndsEveryRay) {  // gvdb 115: empty masks
     slots[7] = 0;
     bricks.brick_count = 1;
     bricks.slots = {device, "slots", std::span<const uint32_t>(slots)};
-    const std::array<uint32_t, 1> place = {7};
-    bricks.coordinates = {device, "coordinates", std::span<const uint32_t>(place)};
+    const std::array<uint32_t, 1> number = {7};
+    bricks.coordinates = {device, "coordinates", std::span<const uint32_t>(number)};
     const std::array<uint64_t, 64> masks{};
     bricks.occupancy = {device, "occupancy", std::span<const uint64_t>(masks)};
     const Pyramid pyramid = build_index(device, bricks);

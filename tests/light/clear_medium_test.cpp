@@ -74,7 +74,7 @@ class ClearMedium : public FileTest {
     }
 };
 
-constexpr const char* kBeside = R"({"kind": "ball", "center": [8, 9, 7], "radius": 1})";
+constexpr const char* kNextTo = R"({"kind": "ball", "center": [8, 9, 7], "radius": 1})";
 constexpr const char* kAmid = R"({"kind": "ball", "center": [0, 0, 0], "radius": 0.9})";
 constexpr const char* kBelow = R"({"kind": "height", "base": -900, "scale_height": 0.5})";
 
@@ -84,7 +84,7 @@ TEST_F(ClearMedium, IsNotMadeAndChangesNothing) {
     for (const char* material : {"clay", "glass"}) {
         const Picture none = show(without_fog(material)), fog = show(foggy(kAmid, material));
         EXPECT_NE(fog.image.planes, none.image.planes);
-        for (const char* density : {kBeside, kBelow, R"({"kind": "grid", "file": "zero.vdb"})",
+        for (const char* density : {kNextTo, kBelow, R"({"kind": "grid", "file": "zero.vdb"})",
                                     R"({"kind": "grid", "file": "less.vdb"})"}) {
             const Scene scene = foggy(density, material);
             const Picture clear = show(scene);
@@ -110,7 +110,7 @@ TEST_F(ClearMedium, IsTheSameVolumeAsNone) {
     for (const char* material : {"clay", "glass"}) {
         RenderReport report;
         const Volume none = render_volume(shared_device(), without_fog(material), report);
-        const Volume clear = render_volume(shared_device(), foggy(kBeside, material), report);
+        const Volume clear = render_volume(shared_device(), foggy(kNextTo, material), report);
         ASSERT_FALSE(none.colors.empty());
         EXPECT_EQ(clear.indices, none.indices);
         EXPECT_EQ(clear.colors, none.colors);
@@ -130,7 +130,7 @@ TEST_F(ClearMedium, IsOneValueOrMoreAboveZeroNotClear) {
 TEST_F(ClearMedium, MayComeIntoAWorldThatIsKept) {
     WorldBuilder builder(shared_device(), true);
     Renderer renderer(shared_device());
-    for (const char* density : {kBeside, kAmid, kBeside}) {
+    for (const char* density : {kNextTo, kAmid, kNextTo}) {
         const Scene scene = foggy(density);
         RenderReport report;
         const BuiltWorld world = builder.build(scene, report.world);

@@ -69,7 +69,7 @@ TEST_P(PointLights, O9ABallIsLitUpToItsTerminatorAndDarkBeyond) {
          {glm::dvec3(-0.7, 0.85, -0.6), glm::dvec3(30, 4, -20), glm::dvec3(-0.29, 0.5, 0)}) {
         Json scene = light_scene(GetParam(), light);
         scene["objects"].erase(0);
-        size_t lit = 0, dark = 0, beside = 0;
+        size_t lit = 0, dark = 0, between = 0;
         for (const Pixel& pixel : pixels_of(scene)) {
             if (pixel.part == kNothing) continue;
             const glm::dvec3 n = glm::normalize(pixel.position - kCenter);
@@ -84,12 +84,12 @@ TEST_P(PointLights, O9ABallIsLitUpToItsTerminatorAndDarkBeyond) {
                 ASSERT_NEAR(pixel.red, cosine * brightest, bound * brightest)
                     << "cosine " << cosine;
             } else {
-                ++beside;
+                ++between;
             }
         }
         EXPECT_GT(lit, 100u);
         EXPECT_GT(dark, 200u);
-        EXPECT_LT(beside, 50u);
+        EXPECT_LT(between, 50u);
     }
 }
 

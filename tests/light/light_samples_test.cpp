@@ -67,7 +67,7 @@ TEST_P(EmissiveObjects, GiveAFacingSurfaceTheRadianceTimesTheirSolidAngle) {
     }
 }
 
-TEST_P(EmissiveObjects, AreSeenAsBrightAsTheyGlow) {
+TEST_P(EmissiveObjects, AreSeenWithTheirOwnEmission) {
     const Image image = image_of(scene_of_case());
     ASSERT_GT(point_at(image, pixel_at(image, 0.05, 0.1)).y, 0.5);
     for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, FlatEmissiveObjects,
                                          EmissiveCase{"smooth", "instance"},
                                          EmissiveCase{"exact", "instance"}));
 
-TEST(EmissiveObject, InsideAGlowingShellASurfaceReturnsItsColorTimesTheRadiance) {
+TEST(EmissiveObject, InsideAnEmissiveShellASurfaceReturnsItsColorTimesTheRadiance) {
     // A hollow ball surrounds the whole floor and is cut off at the world's bottom. Half of the sky
     // that the surface sees is the shell down to the floor.
     Scene scene = floor_scene(
@@ -194,7 +194,7 @@ TEST(EmissiveObject, GivesTheSameBitsWithAnyNumberOfLanes) {
     }
 }
 
-TEST(EmissiveObject, WithoutLightSamplesGlowsButLightsNothing) {
+TEST(EmissiveObject, WithoutLightSamplesIsSeenButLightsNothing) {
     const Scene scene = ball_scene("smooth", R"(, "spots": 0)");
     const Device device = test_device();
     RenderReport report;

@@ -66,16 +66,16 @@ TEST(Resolve, APixelIsTheMeanOfItsSamplesAndTheGeometryOfItsFirstHit) {
         batch.normals[a * 32 + second] = float(a) - 0.5f;
     }
     const Image image = batch.resolved();
-    const size_t place = 1 * 3 + 1;
-    EXPECT_EQ(image.planes.at("R")[place], 0.5f);
-    EXPECT_EQ(image.planes.at("B")[place], 1.5f);
-    EXPECT_EQ(image.planes.at("A")[place], 0.5f);
-    EXPECT_EQ(image.planes.at("P.X")[place], -1 + 2 * 0.5f);
-    EXPECT_EQ(image.planes.at("P.Y")[place], -2 + 3 * 0.25f);
-    EXPECT_EQ(image.planes.at("P.Z")[place], -3 + 4 * 0.125f);
-    EXPECT_EQ(image.planes.at("N.Y")[place], 0.5f);
-    EXPECT_EQ(image.planes.at("Z")[place], -2.5f + 4.0f);  // along +z from z = -4
-    EXPECT_EQ(image.id_planes.at("objectId")[place], 42u);
+    const size_t index = 1 * 3 + 1;
+    EXPECT_EQ(image.planes.at("R")[index], 0.5f);
+    EXPECT_EQ(image.planes.at("B")[index], 1.5f);
+    EXPECT_EQ(image.planes.at("A")[index], 0.5f);
+    EXPECT_EQ(image.planes.at("P.X")[index], -1 + 2 * 0.5f);
+    EXPECT_EQ(image.planes.at("P.Y")[index], -2 + 3 * 0.25f);
+    EXPECT_EQ(image.planes.at("P.Z")[index], -3 + 4 * 0.125f);
+    EXPECT_EQ(image.planes.at("N.Y")[index], 0.5f);
+    EXPECT_EQ(image.planes.at("Z")[index], -2.5f + 4.0f);  // along +z from z = -4
+    EXPECT_EQ(image.id_planes.at("objectId")[index], 42u);
     EXPECT_EQ(batch.not_finite, 0u);
 }
 

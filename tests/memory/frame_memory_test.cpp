@@ -105,13 +105,13 @@ class CrowdedFrames : public testing::Test {
     std::vector<size_t> crowded_;  ///< frames that are told to keep nothing
 };
 
-TEST_F(CrowdedFrames, AWorldThatCantBeFormedBesideAFrameIsFormedAlone) {
+TEST_F(CrowdedFrames, AWorldThatCantBeFormedAlongsideAFrameIsFormedAlone) {
     const std::vector<uint64_t> hashes = expected();
     EXPECT_EQ(run(End::forming), 3u);
     EXPECT_EQ(hashes_, hashes);
 }
 
-TEST_F(CrowdedFrames, AFrameThatCantBeRenderedBesideAWorldIsRenderedAlone) {
+TEST_F(CrowdedFrames, AFrameThatCantBeRenderedAlongsideAWorldIsRenderedAlone) {
     const std::vector<uint64_t> hashes = expected();
     EXPECT_EQ(run(End::rendering), 2u);
     EXPECT_EQ(hashes_, hashes);
@@ -149,7 +149,7 @@ TEST_F(CrowdedFrames, WhatDoesNotFitAloneIsAnError) {
     }
 }
 
-TEST_F(CrowdedFrames, NoFrameIsTriedAgainBesideWhatCantBeForgotten) {
+TEST_F(CrowdedFrames, NoFrameIsTriedAgainAlongsideWhatCantBeForgotten) {
     FrameSteps steps = this->steps(End::kept);
     steps.forget = {};
     for (const bool overlap : {true, false}) {

@@ -102,7 +102,7 @@ TEST(RayArrays, OfALargeImageAreThoseOfOneBatch) {
     }
 }
 
-TEST(RayArrays, OfDepthsThatFewRaysReachLieBetweenTheLeastAndTheMost) {
+TEST(RayArrays, OfDepthsThatFewRaysReachLieBetweenMinimumAndMaximum) {
     const Scene scene = scene_of({.ball = kMirror, .depth = 12});
     const double bytes = taken(scene);
     const RayBytes plan = planned(scene);

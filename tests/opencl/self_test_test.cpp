@@ -107,8 +107,8 @@ TEST(KnownAnswers, OfIntegersAreExact) {
         uint32_t sum = 0;
         for (uint32_t digit = 0; digit < 4; ++digit) {
             uint32_t count = 0;
-            for (int place = 0; place < 32; place += 2)
-                count += ((uint32_t(i_of(k)) >> place) & 3) == digit;
+            for (int bit = 0; bit < 32; bit += 2)
+                count += ((uint32_t(i_of(k)) >> bit) & 3) == digit;
             sum += count * count;
         }
         return sum;

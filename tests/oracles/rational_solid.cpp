@@ -42,7 +42,7 @@ int sign_of(const Rounded& a) {
     return a.value > 0 ? 1 : -1;
 }
 
-int greatest(std::initializer_list<int> sides) {
+int max_side(std::initializer_list<int> sides) {
     return std::max(sides);  // kUnknown is greater than all others
 }
 
@@ -71,7 +71,7 @@ int side_of_cone(const std::array<Number, 3>& p, const Solid& s) {
     const Number h(s.height), two_y = p[1] * Number(2.0);
     const Number r = Number(s.radius) * (h - two_y) + Number(s.top_radius) * (h + two_y);
     const Number across = p[0] * p[0] + p[2] * p[2];
-    return greatest(
+    return max_side(
         {side_of_pair(p[1], s.height), sign_of(Number(across * h * h * Number(4.0) - r * r))});
 }
 
@@ -102,10 +102,10 @@ int side_of_shape(const std::array<Number, 3>& p, const Solid& s) {
         case SolidKind::ellipsoid:
             return side_of_ellipsoid(p, s.radii);
         case SolidKind::box:
-            return greatest({side_of_pair(p[0], s.size.x), side_of_pair(p[1], s.size.y),
+            return max_side({side_of_pair(p[0], s.size.x), side_of_pair(p[1], s.size.y),
                              side_of_pair(p[2], s.size.z)});
         case SolidKind::cylinder:
-            return greatest({side_of_pair(p[1], s.height), side_of_ball(across, s.radius)});
+            return max_side({side_of_pair(p[1], s.height), side_of_ball(across, s.radius)});
         case SolidKind::cone:
             return side_of_cone(p, s);
         case SolidKind::torus:

@@ -31,9 +31,9 @@ std::string ring_text() {
         }
     for (int i = 0; i < kAround; ++i)
         for (int j = 0; j < kAcross; ++j) {
-            const int next = (i + 1) % kAround * kAcross + 1, beside = (j + 1) % kAcross;
-            text += fmt::format("f {} {} {} {}\n", i * kAcross + 1 + j, i * kAcross + 1 + beside,
-                                next + beside, next + j);
+            const int next = (i + 1) % kAround * kAcross + 1, neighbour = (j + 1) % kAcross;
+            text += fmt::format("f {} {} {} {}\n", i * kAcross + 1 + j, i * kAcross + 1 + neighbour,
+                                next + neighbour, next + j);
         }
     return text;
 }

@@ -70,9 +70,9 @@ class ThinPartImage : public FileTest {
 bool is_flat(const Image& image, size_t pixel, double voxel) {
     const auto& depth = image.planes.at("Z");
     for (size_t i = 0; i < 9; ++i) {
-        const size_t beside =
+        const size_t neighbour =
             pixel + i % 3 + size_t(image.width) * (i / 3) - size_t(image.width) - 1;
-        if (beside >= depth.size() || !(std::abs(depth[beside] - depth[pixel]) <= voxel))
+        if (neighbour >= depth.size() || !(std::abs(depth[neighbour] - depth[pixel]) <= voxel))
             return false;
     }
     return true;

@@ -84,7 +84,7 @@ TEST(Whitted, MetalHasTheSameBitsWithAnyNumberOfLanes) {
         EXPECT_EQ(one.planes, render(test_device(lanes), scene, report).planes) << lanes;
 }
 
-TEST(Whitted, ThePictureIsTheAnalyticOneBesideEdges) {
+TEST(Whitted, ThePictureIsTheAnalyticOneAwayFromEdges) {
     expect_analytic_image(whitted(), 1e-4, 1e-2);
 }
 

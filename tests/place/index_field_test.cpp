@@ -147,8 +147,8 @@ TEST(IndexField, CubesWinOverTheFieldInTheirVoxelAndTheKindsAreWritten) {
     bricks.occupancy.assign(bricks.coordinates.size() * 64, 0);
     VoxelMap expected = cells_by_rule(size, f, 0x40050002u);
     for (const glm::ivec3 v : {glm::ivec3{5, 3, 2}, glm::ivec3{17, 8, 6}}) {
-        const size_t place = bricks.place(v);
-        const size_t leaf = place / 4096 * 64 + size_t(v.x % 16 / 4 + v.y / 4 * 4 + v.z / 4 * 16);
+        const size_t index = bricks.index_of(v);
+        const size_t leaf = index / 4096 * 64 + size_t(v.x % 16 / 4 + v.y / 4 * 4 + v.z / 4 * 16);
         bricks.occupancy[leaf] |= uint64_t{1} << (v.x % 4 + v.y % 4 * 4 + v.z % 4 * 16);
         expected[v] = 0x00050002u;
     }

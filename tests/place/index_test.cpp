@@ -110,7 +110,7 @@ TEST(Index, CarriesColoursInThePyramidsOrder) {
     const VoxelMap voxels = {{{3, 0, 0}, 1}, {{20, 5, 7}, 2}, {{0, 21, 0}, 3}};
     HostBricks bricks = occupied_bricks(frame_of({23, 22, 9}), voxels);
     bricks.colors.assign(bricks.attributes.size(), 0);
-    for (const auto& [v, word] : voxels) bricks.colors[bricks.place(v)] = 0xABCD00u + word;
+    for (const auto& [v, word] : voxels) bricks.colors[bricks.index_of(v)] = 0xABCD00u + word;
     const Pyramid p = build_index(device, bricks.upload(device));
     EXPECT_THAT(p.colors.read(), ElementsAre(0xABCD01u, 0xABCD02u, 0xABCD03u));
 }

@@ -112,7 +112,7 @@ class MirroredObjects : public FileTest, public testing::WithParamInterface<Case
     }
 
     /// A normal of the mesh, transformed by the map.
-    glm::dvec3 carried(const glm::dvec3& normal) const {
+    glm::dvec3 transformed(const glm::dvec3& normal) const {
         return glm::normalize(glm::transpose(glm::inverse(glm::dmat3(map))) * normal);
     }
     glm::dvec3 in_mesh(const glm::dvec3& place) const {
@@ -163,7 +163,7 @@ TEST_P(MirroredObjects, SmoothSurfacesHaveTheirRingsNormals) {
         const glm::dvec3 p = in_mesh(place);
         ASSERT_NEAR(ring.distance(p), 0, 0.002);
         const double degrees =
-            glm::degrees(std::acos(std::min(1.0, glm::dot(normal, carried(ring.out(p))))));
+            glm::degrees(std::acos(std::min(1.0, glm::dot(normal, transformed(ring.out(p))))));
         worst = std::max(worst, degrees);
         sum += degrees;
         ++count;
@@ -188,7 +188,7 @@ TEST_P(MirroredObjects, CubesHaveTheirFacesNormals) {
                      for (int a = 0; a < 3; ++a) {
                          glm::dvec3 axis{0};
                          axis[a] = 1;
-                         if (is_instance) axis = carried(axis);
+                         if (is_instance) axis = transformed(axis);
                          if (glm::dot(axis, way) > 0) axis = -axis;
                          if (glm::distance(axis, normal) > 1e-6) continue;
                          is_right = true;

@@ -23,10 +23,10 @@ BrickGrid exact_grid(const Device& device, const GridFrame& frame,
     for (const auto& [v, list] : lists) voxels[v] = 0;
     HostBricks bricks = occupied_bricks(frame, voxels);
     bricks.attributes.clear();
-    std::vector<std::vector<uint32_t>> by_place(bricks.coordinates.size() * 4096);
-    for (const auto& [v, list] : lists) by_place[bricks.place(v)] = list;
+    std::vector<std::vector<uint32_t>> by_index(bricks.coordinates.size() * 4096);
+    for (const auto& [v, list] : lists) by_index[bricks.index_of(v)] = list;
     std::vector<uint32_t> first = {0}, primitives;
-    for (const std::vector<uint32_t>& list : by_place) {
+    for (const std::vector<uint32_t>& list : by_index) {
         primitives.insert(primitives.end(), list.begin(), list.end());
         first.push_back(uint32_t(primitives.size()));
     }
@@ -40,8 +40,8 @@ BrickGrid exact_grid(const Device& device, const GridFrame& frame,
 }
 
 std::vector<uint32_t> list_of(const BrickGrid& world, const glm::ivec3& v) {
-    const size_t place = ReadBricks(world).host.place(v);
-    const std::vector<uint32_t> first = world.primitive_first.read(place, 2);
+    const size_t index = ReadBricks(world).host.index_of(v);
+    const std::vector<uint32_t> first = world.primitive_first.read(index, 2);
     return world.primitives.read(first[0], first[1] - first[0]);
 }
 

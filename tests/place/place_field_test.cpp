@@ -192,7 +192,7 @@ TEST(PlaceField, TakesTheGroupOfTheCellThatTheSurfaceCrosses) {
                 const glm::dvec3 closest = glm::clamp(glm::dvec3(0), low, low + 0.1);
                 const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(low + 0.1));
                 if (glm::length(closest) <= 2.0 && glm::length(farthest) >= 2.0)
-                    bricks.attributes[bricks.place(v)] = uint32_t(low.y > -0.05) << 16;
+                    bricks.attributes[bricks.index_of(v)] = uint32_t(low.y > -0.05) << 16;
             }
     const BrickGrid grid = bricks.upload(device);
     const std::vector<PlacedObject> objects = {

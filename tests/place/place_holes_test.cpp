@@ -105,7 +105,7 @@ TEST(PlaceHoles, TurnedThinShellsLetNoPathThroughFacesIn) {
         << "on the lattice nothing is widened";
 }
 
-TEST(PlaceHoles, StoresEveryBrickOfASolidWithAVoxelBesideAnEmptyOne) {
+TEST(PlaceHoles, StoresEveryBrickOfASolidWithAVoxelNextToAnEmptyOne) {
     const glm::ivec3 size{112, 115, 113};
     VoxelMap ball;
     for (glm::ivec3 v{0}; v.z < size.z; ++v.z)

@@ -57,7 +57,7 @@ class SceneAssets : public FileTest {
 
 }  // namespace
 
-TEST_F(SceneAssets, AreLookedForBesideTheSceneThenInEachFolder) {
+TEST_F(SceneAssets, AreLookedForNextToTheSceneThenInEachFolder) {
     expect_found("here.obj", "scene/here.obj");
     expect_found("sub/deep.obj", "scene/sub/deep.obj");
     expect_found("a.obj", "first/a.obj");

@@ -41,8 +41,8 @@ void expect_enclosed(const Display& display, const glm::dvec3& p) {
 /// Points of all sight rays of a display, at its near and far surface and between them.
 void expect_rays_enclosed(const Display& display) {
     const DisplayShapeRow& row = shape_row(display);
-    for (int place = 0; place < 81; ++place) {
-        const glm::dvec2 uv(place % 9 / 4.0 - 1, place / 9 / 4.0 - 1);
+    for (int index = 0; index < 81; ++index) {
+        const glm::dvec2 uv(index % 9 / 4.0 - 1, index / 9 / 4.0 - 1);
         if (row.image_is_round && glm::length(uv) > 1) continue;
         for (const double depth : {display.near, 1.7, display.far}) {
             const glm::dvec3 p = row.point_on_ray(display, uv, depth);

@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 
 /// The position of a point in the image: -1..1 across and down.
-glm::dvec2 place_in_image(const Observer& observer, const glm::dvec3& p) {
+glm::dvec2 position_in_image(const Observer& observer, const glm::dvec3& p) {
     const glm::dvec3 e = glm::transpose(observer.world_from_observer) * (p - observer.position);
     EXPECT_GT(e.z, 0);
     return {-e.x / e.z / std::tan(observer.display.half_angles.x),
@@ -31,9 +31,9 @@ glm::dvec2 place_in_image(const Observer& observer, const glm::dvec3& p) {
 glm::dvec2 middle_in_image(const Observer& observer, const Bounds& box) {
     glm::dvec2 low(INFINITY), high(-INFINITY);
     for (int i = 0; i < 8; ++i) {
-        const glm::dvec2 place = place_in_image(observer, corner(box, i));
-        low = glm::min(low, place);
-        high = glm::max(high, place);
+        const glm::dvec2 position = position_in_image(observer, corner(box, i));
+        low = glm::min(low, position);
+        high = glm::max(high, position);
     }
     return (low + high) / 2.0;
 }
@@ -42,8 +42,8 @@ glm::dvec2 middle_in_image(const Observer& observer, const Bounds& box) {
 double farthest_in_image(const Observer& observer, const Bounds& box) {
     double farthest = 0;
     for (int i = 0; i < 8; ++i) {
-        const glm::dvec2 place = place_in_image(observer, corner(box, i));
-        farthest = std::max({farthest, std::abs(place.x), std::abs(place.y)});
+        const glm::dvec2 position = position_in_image(observer, corner(box, i));
+        farthest = std::max({farthest, std::abs(position.x), std::abs(position.y)});
     }
     return farthest;
 }
@@ -82,7 +82,7 @@ TEST(FittedObserver, LooksFromTheRightOfTheFrontAndFromAbove) {
     const double nearest = depth_of_nearest_corner(scene, scene.observer);
     EXPECT_LE(scene.observer.display.near, nearest) << "nothing is cut off";
     EXPECT_GT(scene.observer.display.near, 0.99 * nearest);
-    const glm::dvec2 middle = place_in_image(scene.observer, {1, -2, 3});
+    const glm::dvec2 middle = position_in_image(scene.observer, {1, -2, 3});
     EXPECT_LT(glm::length(middle), 0.15);
 }
 

@@ -171,7 +171,7 @@ TEST(SceneAnimation, KeepsWhatWasChangedAfterReading) {
     EXPECT_EQ(now.observer.position, glm::dvec3(0, 0, -2.5));
 }
 
-TEST(SceneAnimation, FindsTheExtentOfModelsAnew) {
+TEST(SceneAnimation, FindsTheExtentOfModelsAgain) {
     const Scene scene =
         parse(animated({track("objects.egg.position", {key(1, {0, 0, 0}), key(9, {8, 0, 0})}),
                         track("objects.block.model", {key(1, "block"), key(5, "egg")}),

@@ -24,7 +24,7 @@ using nlohmann::json;
 
 /// The scene without text places and motions' identities, which differ between scenes read from two
 /// texts.
-Scene without_places(Scene scene) {
+Scene without_source_positions(Scene scene) {
     scene.motion = nullptr;
     scene.world.where = {};
     if (auto* grid = std::get_if<GridDensity>(&scene.world.medium.density)) grid->where = {};
@@ -89,8 +89,10 @@ class SceneFrames : public FileTest {
         const double share = (2.25 - 1) / 4;
         still[place] = between(value, last, share);
         const Scene now = scene_at(parse(moving), 2.25);
-        EXPECT_TRUE(without_places(now) == without_places(parse(still))) << target;
-        EXPECT_FALSE(without_places(now) == without_places(parse(document))) << target;
+        EXPECT_TRUE(without_source_positions(now) == without_source_positions(parse(still)))
+            << target;
+        EXPECT_FALSE(without_source_positions(now) == without_source_positions(parse(document)))
+            << target;
     }
 
     /// Adds tracks that change each number and vector of a part of a document, and each of its

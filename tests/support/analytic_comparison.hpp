@@ -47,18 +47,18 @@ inline void expect_image(const Scene& scene, const oracle::AnalyticImage& expect
     const auto &red = image.planes.at("R"), &green = image.planes.at("G"),
                &blue = image.planes.at("B");
     ASSERT_EQ(red.size(), expected.radiance.size());
-    ColorError beside, all;
+    ColorError away, all;
     for (size_t i = 0; i < red.size(); ++i) {
         const glm::dvec3 off = glm::dvec3(red[i], green[i], blue[i]) - expected.radiance[i];
         all.add(i, off);
-        if (!expected.edge[i]) beside.add(i, off);
+        if (!expected.edge[i]) away.add(i, off);
     }
-    const std::string words = in_words("beside edges", beside, image.width);
+    const std::string words = in_words("beside edges", away, image.width);
     fmt::print("{}\n{}\n", words, in_words("with edges", all, image.width));
     EXPECT_EQ(report.not_finite, 0u);
-    EXPECT_GT(beside.pixels, red.size() / 3) << "edges leave too little to compare";
-    EXPECT_LE(beside.rms(), rms) << words;
-    EXPECT_LE(beside.worst, worst) << words;
+    EXPECT_GT(away.pixels, red.size() / 3) << "edges leave too little to compare";
+    EXPECT_LE(away.rms(), rms) << words;
+    EXPECT_LE(away.worst, worst) << words;
 }
 
 /// expect_image for the analytic image of the scene itself, which by default has two thirds of its

@@ -49,7 +49,7 @@ struct HostBricks {
                 coordinates.push_back(uint32_t(i));
             }
     }
-    size_t place(const glm::ivec3& voxel) const {
+    size_t index_of(const glm::ivec3& voxel) const {
         return size_t(slots[brick_index(voxel)]) * 4096 + index_in_brick(voxel);
     }
     BrickGrid upload(const Device& device) const {
@@ -80,11 +80,11 @@ inline HostBricks occupied_bricks(const GridFrame& frame, const VoxelMap& voxels
     bricks.occupancy.assign(bricks.coordinates.size() * 64, 0);
     bricks.attributes.assign(bricks.coordinates.size() * 4096, 0);
     for (const auto& [v, word] : voxels) {
-        const size_t place = bricks.place(v);
+        const size_t index = bricks.index_of(v);
         const glm::ivec3 leaf = v % 16 / 4, in = v % 4;
-        bricks.occupancy[place / 4096 * 64 + size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] |=
+        bricks.occupancy[index / 4096 * 64 + size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] |=
             uint64_t{1} << (in.x + 4 * in.y + 16 * in.z);
-        bricks.attributes[place] = word;
+        bricks.attributes[index] = word;
     }
     return bricks;
 }
@@ -123,7 +123,7 @@ inline HostBricks distance_bricks(const GridFrame& frame, const NodeDistance& di
         for (int y = 0; y < nodes.y; ++y)
             for (int x = 0; x < nodes.x; ++x, ++i)
                 if (bricks.slots[bricks.brick_index({x, y, z})] < kBrickInside)
-                    bricks.distance[bricks.place({x, y, z})] = dense[i];
+                    bricks.distance[bricks.index_of({x, y, z})] = dense[i];
     return bricks;
 }
 
@@ -146,17 +146,17 @@ struct ReadBricks {
     bool is_set(const glm::ivec3& v) const {
         if (slot(v) >= kBrickInside) return slot(v) == kBrickInside;
         const glm::ivec3 leaf = v % 16 / 4, in = v % 4;
-        return host.occupancy[host.place(v) / 4096 * 64 +
+        return host.occupancy[host.index_of(v) / 4096 * 64 +
                               size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] >>
                    (in.x + 4 * in.y + 16 * in.z) &
                1;
     }
     int distance_at(const glm::ivec3& node) const {
         if (slot(node) >= kBrickInside) return slot(node) == kBrickInside ? -32767 : 32767;
-        return host.distance[host.place(node)];
+        return host.distance[host.index_of(node)];
     }
     uint32_t word(const glm::ivec3& v) const {
-        return host.attributes.empty() ? attribute : host.attributes[host.place(v)];
+        return host.attributes.empty() ? attribute : host.attributes[host.index_of(v)];
     }
     /// Every set voxel, with its packed attributes unless its brick is full.
     VoxelMap voxels() const {

@@ -23,10 +23,10 @@ inline void fill_volume(Volume& volume, double share, uint32_t seed) {
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     const VolumeFrame& frame = volume.frame;
     const auto count = uint64_t(frame.size.x) * uint64_t(frame.size.y) * uint64_t(frame.size.z);
-    for (uint64_t place = 0; place < count; ++place) {
+    for (uint64_t index = 0; index < count; ++index) {
         if (unit(random) >= share) continue;
         const auto kind = static_cast<VoxelKind>(random() % 3);
-        volume.indices.push_back(place);
+        volume.indices.push_back(index);
         volume.kinds.push_back(kind);
         volume.colors.emplace_back(1.5f * unit(random), unit(random), unit(random));
         const float opacity = 0.1f + 0.9f * unit(random);
@@ -34,7 +34,7 @@ inline void fill_volume(Volume& volume, double share, uint32_t seed) {
                                    : random() % 4 == 0       ? 1.0f
                                                              : opacity);
         volume.objects.push_back(kind == VoxelKind::object ? 1 + uint32_t(random() % 5) : 0);
-        const auto k = double(place / (uint64_t(frame.size.x) * uint64_t(frame.size.y)));
+        const auto k = double(index / (uint64_t(frame.size.x) * uint64_t(frame.size.y)));
         const double step = frame.layout == VolumeLayout::rays ? frame.step : frame.edge.z;
         const double start =
             frame.layout == VolumeLayout::rays ? frame.display.near : frame.origin.z;

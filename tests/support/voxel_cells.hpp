@@ -34,15 +34,15 @@ inline VoxelCells cells_of(const VoxelModel& model) {
                     const size_t leaf = size_t(x / 4 + y / 4 * 4 + z / 4 * 16);
                     const int bit = x % 4 + y % 4 * 4 + z % 4 * 16;
                     if (!(model.occupancy[slot * 64 + leaf] >> bit & 1)) continue;
-                    const size_t place = slot * 4096 + size_t(x + 16 * y + 256 * z);
+                    const size_t index = slot * 4096 + size_t(x + 16 * y + 256 * z);
                     const glm::dvec3 at =
                         model.frame.origin + glm::dvec3(corner) + glm::dvec3(x, y, z);
                     ShownVoxel shown;
-                    if (!model.colors.empty()) shown.color = model.colors[place];
+                    if (!model.colors.empty()) shown.color = model.colors[index];
                     if (!model.color_codes.empty())
-                        shown.color = model.palette[model.color_codes[place]];
+                        shown.color = model.palette[model.color_codes[index]];
                     if (!model.groups.empty())
-                        shown.group = model.groups[model.attributes[place] >> 16 & 0x3FFF];
+                        shown.group = model.groups[model.attributes[index] >> 16 & 0x3FFF];
                     cells[{int(std::lround(at.x)), int(std::lround(at.y)),
                            int(std::lround(at.z))}] = shown;
                 }

@@ -117,13 +117,13 @@ inline std::vector<oracle::LatticeCorners> lattice_mesh(const Mesh& mesh) {
 }
 
 /// The position of a voxel or node in the arrays of a brick grid that was read back.
-struct GridPlace {
+struct GridSlot {
     uint32_t slot;    ///< or kBrickOutside, kBrickInside
     uint32_t number;  ///< within the brick, x fastest
 };
 
-inline GridPlace place_in(const BrickGrid& grid, const std::vector<uint32_t>& slots,
-                          const glm::ivec3& v) {
+inline GridSlot slot_in(const BrickGrid& grid, const std::vector<uint32_t>& slots,
+                        const glm::ivec3& v) {
     const glm::ivec3 bricks = grid.frame.bricks(), b = v / 16, l = v % 16;
     return {slots.at(size_t((b.z * bricks.y + b.y) * bricks.x + b.x)),
             uint32_t(l.z * 256 + l.y * 16 + l.x)};
@@ -139,7 +139,7 @@ inline VoxelSetOf occupied_voxels(const BrickGrid& grid) {
         for (int y = 0; y < bricks.y * 16; ++y)
             for (int x = 0; x < bricks.x * 16; ++x) {
                 const glm::ivec3 v(x, y, z);
-                const uint32_t slot = place_in(grid, slots, v).slot;
+                const uint32_t slot = slot_in(grid, slots, v).slot;
                 if (slot == kBrickInside) voxels.insert(v);
                 if (slot >= kBrickInside) continue;
                 const int leaf = x / 4 % 4 | (y / 4 % 4) << 2 | (z / 4 % 4) << 4;

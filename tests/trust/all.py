@@ -20,8 +20,8 @@ def main():
     options = parser.parse_args()
     program, library = str(options.program.resolve()), str(options.library.resolve())
 
-    def part(count, least=2):
-        return str(max(least, round(count * options.share)))
+    def part(count, minimum=2):
+        return str(max(minimum, round(count * options.share)))
 
     runs = [["kills.py", program, "--kills", part(1000)],
             ["broken_disks.py", program, library, "--calls", part(64)],

@@ -86,7 +86,7 @@ TEST(AnalyticTracer, ABallTurnsARayByTwiceTheAngleOfRefraction) {
     }
 }
 
-TEST(AnalyticTracer, ARightAngledPrismDeviatesTheLeastOnTheSymmetricPath) {
+TEST(AnalyticTracer, ARightAngledPrismDeviatesMinimallyOnTheSymmetricPath) {
     // Fraunhofer's formula is n = sin((A + D) / 2) / sin(A / 2), with A = 90 degrees at the top of
     // a turned box.
     Scene scene = empty_scene();

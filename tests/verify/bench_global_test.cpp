@@ -195,7 +195,7 @@ class GlobalProgram : public ProgramTest {
     }
 };
 
-TEST_F(GlobalProgram, MeasuresPeoplesScenesBesideOtherPrograms) {
+TEST_F(GlobalProgram, MeasuresPeoplesScenesAlongsideOtherPrograms) {
     // Against references that are nearly its own pictures, ours has hardly an error.
     ASSERT_EQ(
         run("render ball.json -o a.exr --samples 1 -q --channels RGBA --device cpu").exit_code, 0);
@@ -220,7 +220,7 @@ TEST_F(GlobalProgram, MeasuresPeoplesScenesBesideOtherPrograms) {
     EXPECT_THAT(bytes_of(folder / "out.html"), testing::EndsWith("</html>\n"));
 }
 
-TEST_F(GlobalProgram, TakesScenesOfLocalLightInGlobalLightBesideNamedOnes) {
+TEST_F(GlobalProgram, TakesScenesOfLocalLightInGlobalLightAlongsideNamedOnes) {
     std::string local = kBallOnFloor;
     local.replace(local.find("\"light\": \"global\""), 17, "\"light\": \"local\"");
     std::ofstream(folder / "local.json") << local;

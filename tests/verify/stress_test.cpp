@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Tests, Stress, testing::ValuesIn(names_of_tests()),
 
 // The triangle's snapped corners lie on the other side of the voxel's edge than the corners that
 // the ray meets.
-TEST(StressFound, ARayAlongAVoxelsEdgeMeetsTheTriangleBesideIt) {
+TEST(StressFound, ARayAlongAVoxelsEdgeMeetsTheTriangleNextToIt) {
     const StressResult result =
         test_named("exact").run({test_device(), kStressSeed, 6494911, 1, {}});
     EXPECT_EQ(result.cases, 1u);

@@ -60,7 +60,7 @@ class Cut : public FileTest {
     std::array<ReadBricks, 2> fields_of(const std::string& keys) {
         const std::shared_ptr<const BrickGrid> grid = grid_of(keys);
         EXPECT_EQ(grid->parts.size(), 1u);
-        EXPECT_EQ(grid->parts.at(0).place.link, FieldLink::largest);
+        EXPECT_EQ(grid->parts.at(0).place.link, FieldLink::maximum);
         return {ReadBricks(*grid), ReadBricks(*grid->parts.at(0).grid)};
     }
 };

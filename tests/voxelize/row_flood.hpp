@@ -98,7 +98,7 @@ class RowFlood {
         for (bool grows = true; grows;) {
             grows = false;
             for (size_t i = 0; i < wall_.words(); ++i) {
-                const uint64_t spread = (row[i] | beside(row, i)) & open(y, z, i);
+                const uint64_t spread = (row[i] | neighbours(row, i)) & open(y, z, i);
                 grows |= spread != row[i];
                 row[i] = spread;
             }
@@ -113,7 +113,7 @@ class RowFlood {
         if (std::min(y, z) < 0 || y >= wall_.size().y || z >= wall_.size().z) return;
         uint64_t* row = reached_.row(y, z);
         for (size_t i = 0; i < wall_.words(); ++i) {
-            const uint64_t near = from[i] | (through_corners_ ? beside(from, i) : 0);
+            const uint64_t near = from[i] | (through_corners_ ? neighbours(from, i) : 0);
             const uint64_t entered = near & open(y, z, i) & ~row[i];
             if (!entered) continue;
             row[i] |= entered;
@@ -122,7 +122,7 @@ class RowFlood {
     }
 
     /// The voxels of a word that neighbour one of the row's voxels along x.
-    uint64_t beside(const uint64_t* row, size_t word) const {
+    uint64_t neighbours(const uint64_t* row, size_t word) const {
         uint64_t near = row[word] << 1 | row[word] >> 1;
         if (word > 0) near |= row[word - 1] >> 63;
         if (word + 1 < wall_.words()) near |= row[word + 1] << 63;

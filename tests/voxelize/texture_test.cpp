@@ -83,15 +83,15 @@ std::vector<uint32_t> colors_of(const Mesh& mesh, Surface kind = Surface::cubes)
     std::vector<uint32_t> found;
     for (int y = 1; y < 23; ++y)
         for (int x = 1; x < 39; ++x) {
-            const GridPlace place = place_in(grid, slots, {x, y, 2});
-            found.push_back(colors.at(size_t(place.slot) * 4096 + place.number));
+            const GridSlot at = slot_in(grid, slots, {x, y, 2});
+            found.push_back(colors.at(size_t(at.slot) * 4096 + at.number));
         }
     return found;
 }
 
 }  // namespace
 
-TEST(Textures, AreBilinearInLinearLightWhateverLiesBesideThem) {
+TEST(Textures, AreBilinearInLinearLightWhateverLiesNextToThem) {
     const auto image = std::make_shared<const TextureImage>(image_of(7, 5));
     using enum TextureWrap;
     for (const auto& [u, v] : {std::pair{repeat, clamp}, {mirror, repeat}, {clamp, mirror}})
@@ -165,8 +165,8 @@ TEST(Textures, AreTheSameForEveryNumberOfLanesAndSurface) {
         options.surface = Surface::exact;
         const BrickGrid grid = voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(kSize), options);
         const std::vector<uint32_t> slots = grid.slots.read(), words = grid.colors.read();
-        const GridPlace place = place_in(grid, slots, {12, 9, 2});
-        EXPECT_EQ(words.at(size_t(place.slot) * 4096 + place.number), colors[8 * 38 + 11]);
+        const GridSlot at = slot_in(grid, slots, {12, 9, 2});
+        EXPECT_EQ(words.at(size_t(at.slot) * 4096 + at.number), colors[8 * 38 + 11]);
     }
 }
 

@@ -72,7 +72,7 @@ TEST(VoxelCases, SliversOfUpTo16384VoxelsAreInEveryBrickThatTheyTouch) {
 
 /// Expects that the 48 symmetries of a cube of `n` voxels, mirrors included, map the mesh's voxels
 /// like the mesh.
-void expect_carried(const Mesh& mesh, int n, VoxelSet set) {
+void expect_transformed(const Mesh& mesh, int n, VoxelSet set) {
     const VoxelSetOf expected = voxels_of(mesh, ivec3(n), set);
     int axes[3] = {0, 1, 2};
     do {
@@ -103,14 +103,15 @@ TEST(VoxelCases, V14TheSymmetriesOfTheCubeCarryVoxelsAlong) {
     Mesh mesh;
     add_triangle(mesh, {1.3f, 2.1f, 3.7f}, {9.2f, 4.4f, 5.5f}, {3.1f, 8.7f, 10.2f});
     add_triangle(mesh, {2, 2, 2}, {9, 2, 2}, {2, 8, 2});
-    expect_carried(mesh, 12, VoxelSet::supercover);
+    expect_transformed(mesh, 12, VoxelSet::supercover);
 }
 
 TEST(VoxelCases, V3TheSymmetriesOfTheCubeLeaveABoxOnGridPlanesAsItIs) {
     const Mesh box = box_mesh({1, 1, 1}, {3, 3, 3});
     EXPECT_EQ(voxels_of(box, ivec3(4), VoxelSet::solid).size(), 8u);
     EXPECT_EQ(voxels_of(box, ivec3(4), VoxelSet::supercover).size(), 64u);
-    for (const VoxelSet set : {VoxelSet::solid, VoxelSet::supercover}) expect_carried(box, 4, set);
+    for (const VoxelSet set : {VoxelSet::solid, VoxelSet::supercover})
+        expect_transformed(box, 4, set);
 }
 
 VoxelRows rows_of(const Mesh& mesh, const ivec3& size, VoxelSet set) {

@@ -28,10 +28,10 @@ struct Field {
         : grid_(grid), slots_(grid.slots.read()), distance_(grid.distance.read()) {}
 
     int units(const ivec3& node) const {
-        const GridPlace place = place_in(grid_, slots_, node);
-        if (place.slot == kBrickOutside) return 32767;
-        if (place.slot == kBrickInside) return -32767;
-        return distance_.at(size_t(place.slot) * 4096 + place.number);
+        const GridSlot at = slot_in(grid_, slots_, node);
+        if (at.slot == kBrickOutside) return 32767;
+        if (at.slot == kBrickInside) return -32767;
+        return distance_.at(size_t(at.slot) * 4096 + at.number);
     }
 
   private:

@@ -52,9 +52,9 @@ TEST(ExactVoxels, ListTheTrianglesThatTheirWidenedCubesMeetInOrder) {
                 for (uint32_t i = 0; i < triangles.size(); ++i)
                     if (oracle::cube_meets_triangle({x, y, z}, triangles[i], 1))
                         expected.push_back(i);
-                const GridPlace place = place_in(grid, slots, {x, y, z});
-                if (place.slot < kBrickInside) {
-                    const size_t v = 4096 * size_t(place.slot) + place.number;
+                const GridSlot at = slot_in(grid, slots, {x, y, z});
+                if (at.slot < kBrickInside) {
+                    const size_t v = 4096 * size_t(at.slot) + at.number;
                     actual.assign(primitives.begin() + first[v], primitives.begin() + first[v + 1]);
                 }
                 ASSERT_EQ(actual, expected) << x << " " << y << " " << z;
@@ -99,8 +99,8 @@ TEST(Labels, AreOfTheTriangleClosestToTheCentre) {
         for (int z = 0; z < kLabelSize.z; ++z)
             for (int y = 0; y < kLabelSize.y; ++y)
                 for (int x = 0; x < kLabelSize.x; ++x) {
-                    const GridPlace place = place_in(grid, slots, {x, y, z});
-                    if (place.slot >= kBrickInside) continue;
+                    const GridSlot at = slot_in(grid, slots, {x, y, z});
+                    if (at.slot >= kBrickInside) continue;
                     double best[3] = {9, 9, 9};
                     for (uint32_t i = 0; i < triangles.size(); ++i) {
                         const auto corner = [&](int c) { return dvec3(triangles[i][c]) / 4096.0; };
@@ -113,7 +113,7 @@ TEST(Labels, AreOfTheTriangleClosestToTheCentre) {
                         static_cast<uint32_t>(std::min_element(best, best + 3) - best);
                     std::sort(best, best + 3);
                     if (best[0] > 1.2 || best[1] - best[0] < 1e-4) continue;
-                    ASSERT_EQ(words.at(size_t(place.slot) * 4096 + place.number),
+                    ASSERT_EQ(words.at(size_t(at.slot) * 4096 + at.number),
                               static_cast<uint32_t>(kind) << 30 | group << 16)
                         << x << " " << y << " " << z;
                     ++checked;
@@ -128,8 +128,8 @@ TEST(Labels, EquallyCloseTrianglesGiveTheLowestNumber) {
     mesh.triangles = {{0, 1, 2}, {0, 1, 2}, {2, 1, 0}};
     mesh.triangle_group = {1, 2, 0};
     const BrickGrid grid = grid_of(mesh, surface(Surface::cubes));
-    const GridPlace place = place_in(grid, grid.slots.read(), {10, 9, 2});
-    EXPECT_EQ(grid.attributes.read().at(size_t(place.slot) * 4096 + place.number), 1u << 16);
+    const GridSlot at = slot_in(grid, grid.slots.read(), {10, 9, 2});
+    EXPECT_EQ(grid.attributes.read().at(size_t(at.slot) * 4096 + at.number), 1u << 16);
 }
 
 TEST(Labels, ColorsAreTheClosestPointsInSrgb) {
@@ -138,8 +138,8 @@ TEST(Labels, ColorsAreTheClosestPointsInSrgb) {
     const BrickGrid grid = grid_of(mesh, surface(Surface::cubes));
     const std::vector<uint32_t> slots = grid.slots.read(), colors = grid.colors.read();
     const auto color = [&](const ivec3& v) {
-        const GridPlace place = place_in(grid, slots, v);
-        return colors.at(size_t(place.slot) * 4096 + place.number);
+        const GridSlot at = slot_in(grid, slots, v);
+        return colors.at(size_t(at.slot) * 4096 + at.number);
     };
     EXPECT_EQ(color({0, 0, 2}), 0x0000FFu);
     EXPECT_EQ(color({20, 0, 2}), 0x00FF00u);
@@ -161,8 +161,8 @@ TEST(Labels, ColorsOfCornersGoBeforeTheOrderOfVertices) {
             unit_frame(kLabelSize), surface(Surface::cubes));
         const std::vector<uint32_t> slots = grid.slots.read(), colors = grid.colors.read();
         const auto color = [&](int x, int y, int z) {
-            const GridPlace place = place_in(grid, slots, {x, y, z});
-            return colors.at(size_t(place.slot) * 4096 + place.number);
+            const GridSlot at = slot_in(grid, slots, {x, y, z});
+            return colors.at(size_t(at.slot) * 4096 + at.number);
         };
         const int of_first = mirrored ? 9 : 2, of_second = mirrored ? 2 : 9;
         EXPECT_EQ(color(5, 5, of_first), 0x00FF00u);

@@ -164,8 +164,9 @@ TEST(OpenMesh, ATrayWhoseLidsMiddleLiesOnTheLineOfAnEdgeIsFilledToItsRim) {
             for (int x = 0; x < size.x; ++x) {
                 const glm::vec2 corner{float(x), float(y)};
                 const bool expected = is_within(outline, corner + 0.6f);
-                const bool beside = is_within(outline, corner + 0.4f) != expected;
-                wrong += z != 66 && !beside && (z < 66 && expected) != voxels.contains({x, y, z});
+                const bool near_outline = is_within(outline, corner + 0.4f) != expected;
+                wrong +=
+                    z != 66 && !near_outline && (z < 66 && expected) != voxels.contains({x, y, z});
             }
     EXPECT_EQ(wrong, 0u);
 }
@@ -195,11 +196,11 @@ TEST(OpenMesh, SmoothSignsAreThoseOfTheSum) {
     for (int z = 0; z <= kOpenSize.z; ++z)
         for (int y = 0; y <= kOpenSize.y; ++y)
             for (int x = 0; x <= kOpenSize.x; ++x) {
-                const GridPlace place = place_in(grid, slots, {x, y, z});
-                const int units = place.slot == kBrickInside ? -32767
-                                  : place.slot == kBrickOutside
+                const GridSlot at = slot_in(grid, slots, {x, y, z});
+                const int units = at.slot == kBrickInside ? -32767
+                                  : at.slot == kBrickOutside
                                       ? 32767
-                                      : distance.at(size_t(place.slot) * 4096 + place.number);
+                                      : distance.at(size_t(at.slot) * 4096 + at.number);
                 const double w = winding_of_angles(dvec3(x, y, z), triangles, dvec3(1));
                 if (std::abs(w - 0.5) > 1e-5 && units != 0) wrong += (w > 0.5) != (units < 0);
             }

@@ -62,7 +62,7 @@ TEST(Lines, AreInTheVoxelsThatTheyMeetAboveTheLowerPlanes) {
     }
 }
 
-TEST(Points, BesideATriangleAreOfTheClosedSet) {
+TEST(Points, NextToATriangleAreOfTheClosedSet) {
     Mesh mesh = single_triangle({3, 3, 3}, {5, 3, 3}, {3, 5, 3});
     mesh.positions.emplace_back(8, 8, 8);
     mesh.triangles.push_back(point_triangle(3));

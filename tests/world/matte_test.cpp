@@ -58,7 +58,7 @@ Scene balls() {
     return scene;
 }
 
-TEST(Matte, AnObjectsShareIsTheLightOfAScreenWhereItGlowsAlone) {
+TEST(Matte, AnObjectsShareIsTheLightOfAScreenWhereItAloneIsEmissive) {
     Scene scene = balls();
     scene.objects.pop_back();  // without the veil, all is opaque
     const Image image = image_of(scene);

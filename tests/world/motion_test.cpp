@@ -128,14 +128,14 @@ TEST(Motion, PlacesAreThoseOfSightRaysInEveryShape) {
         const Display& shape = scene.observer.display;
         for (const glm::dvec2 uv : {glm::dvec2(0.3, -0.2), glm::dvec2(-0.55, 0.4)}) {
             const glm::dvec3 p = shape_row(shape).point_on_ray(shape, uv, 2.5);
-            const auto place = place_in_picture(
+            const auto position = position_in_picture(
                 scene, scene.observer.position + scene.observer.world_from_observer * p);
-            ASSERT_TRUE(place) << display;
-            EXPECT_NEAR(place->x, (uv.x + 1) * 100, 1e-9) << display;
-            EXPECT_NEAR(place->y, (uv.y + 1) * 50, 1e-9) << display;
+            ASSERT_TRUE(position) << display;
+            EXPECT_NEAR(position->x, (uv.x + 1) * 100, 1e-9) << display;
+            EXPECT_NEAR(position->y, (uv.y + 1) * 50, 1e-9) << display;
         }
     }
-    EXPECT_FALSE(place_in_picture(moving_scene(kPyramid, kSlide), {0, 0, -5}));
+    EXPECT_FALSE(position_in_picture(moving_scene(kPyramid, kSlide), {0, 0, -5}));
 }
 
 }  // namespace

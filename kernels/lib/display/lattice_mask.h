@@ -50,11 +50,11 @@ static inline float3 load_point(global const float* points, uint total, uint n) 
     return (float3)(points[n], points[total + n], points[2 * total + n]);
 }
 
-static inline uint number_of(global const uint* mask, global const uint* starts, size_t place) {
-    const size_t word = place >> 5, first = word & ~(size_t)(VXL_GROUP_WORDS - 1);
+static inline uint number_of(global const uint* mask, global const uint* starts, size_t index) {
+    const size_t word = index >> 5, first = word & ~(size_t)(VXL_GROUP_WORDS - 1);
     uint number = starts[word / VXL_GROUP_WORDS];
     for (size_t i = first; i < word; ++i) number += popcount(mask[i]);
-    return number + popcount(mask[word] & ((1u << (place & 31u)) - 1u));
+    return number + popcount(mask[word] & ((1u << (index & 31u)) - 1u));
 }
 
 #endif

@@ -26,7 +26,7 @@
 /// The crossings of one line, `stride` apart.
 typedef struct {
     uint count, stride;
-    global float* restrict places;
+    global float* restrict coordinates;
     global uint* restrict surfaces;
     global const uint* restrict ranks;       // of each object, see medium_set.h
     global const float* restrict opacities;  // of each material: 1 opaque; 2 light passes, but
@@ -40,7 +40,7 @@ typedef struct {
 } LineMedia;
 
 static inline uint sense_at(const LineCrossings* l, uint i) {
-    return as_uint(l->places[i * l->stride]) & VXL_CROSSES_SENSES;
+    return as_uint(l->coordinates[i * l->stride]) & VXL_CROSSES_SENSES;
 }
 
 static inline float opacity_of_surface(global const float* restrict opacities, uint surface) {
@@ -72,14 +72,14 @@ static inline void leave(LineMedia* m, uint rank) {
 /// Insertion sort: the scan finds most crossings already in order.
 static inline void sort_crossings(const LineCrossings* l) {
     for (uint i = 1; i < l->count; ++i) {
-        const float place = l->places[i * l->stride];
+        const float coordinate = l->coordinates[i * l->stride];
         const uint surface = l->surfaces[i * l->stride];
         uint at = i;
-        for (; at > 0u && l->places[(at - 1u) * l->stride] > place; --at) {
-            l->places[at * l->stride] = l->places[(at - 1u) * l->stride];
+        for (; at > 0u && l->coordinates[(at - 1u) * l->stride] > coordinate; --at) {
+            l->coordinates[at * l->stride] = l->coordinates[(at - 1u) * l->stride];
             l->surfaces[at * l->stride] = l->surfaces[(at - 1u) * l->stride];
         }
-        l->places[at * l->stride] = place;
+        l->coordinates[at * l->stride] = coordinate;
         l->surfaces[at * l->stride] = surface;
     }
 }
@@ -102,9 +102,9 @@ static inline LineMedia begin_line(const LineCrossings* l) {
 static inline bool is_again(const LineCrossings* l, uint i, uint kept) {
     const uint sense = sense_at(l, i);
     if (sense == VXL_CROSSES_CUBE) return false;  // cubes have one crossing each
-    const float place = l->places[i * l->stride];
+    const float coordinate = l->coordinates[i * l->stride];
     const uint object = l->surfaces[i * l->stride] & VXL_OBJECT_MASK;
-    for (uint k = kept; k-- > 0u && place - l->places[k * l->stride] < VXL_SAME_POINT;)
+    for (uint k = kept; k-- > 0u && coordinate - l->coordinates[k * l->stride] < VXL_SAME_POINT;)
         if (sense_at(l, k) == sense && (l->surfaces[k * l->stride] & VXL_OBJECT_MASK) == object)
             return true;
     return false;
@@ -138,7 +138,7 @@ static inline uint order_crossings(const LineCrossings* l) {
     uint kept = 0;
     for (uint i = 0; i < l->count; ++i) {
         if (is_again(l, i, kept) || !cross_surface(l, i, &media)) continue;
-        l->places[kept * l->stride] = l->places[i * l->stride];
+        l->coordinates[kept * l->stride] = l->coordinates[i * l->stride];
         l->surfaces[kept * l->stride] = l->surfaces[i * l->stride];
         ++kept;
     }

@@ -68,11 +68,11 @@ static inline Coat view_coat(global const float* restrict materials, lane_int is
 /// and `returned`, the share that the coat returns there.
 static inline Albedo under_coat(const Coat* coat, Albedo a, lane_float cosine,
                                 lane_float returned) {
-    const lane_float place = exact_sqrt(cosine);
+    const lane_float at = exact_sqrt(cosine);
     const lane_float lost =
-        coat->share * between_entries(coat->facets.materials, coat->losses, 2u, 0u, place);
+        coat->share * between_entries(coat->facets.materials, coat->losses, 2u, 0u, at);
     const lane_float lost_by_angle =
-        coat->share * between_entries(coat->facets.materials, coat->losses, 2u, 1u, place);
+        coat->share * between_entries(coat->facets.materials, coat->losses, 2u, 1u, at);
     Albedo under;
     under.entered = fma(-coat->share, returned, (lane_float)1.0f);
     under.missing = fma(a.missing, under.entered, a.all * lost);

@@ -117,10 +117,10 @@ static inline lane_float surface_shininess(global const float* restrict material
 
 /// The light that surfaces of `material` at `position` return towards the viewer. Returns a mask of
 /// the points that return any.
-static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_float highlight,
-                                   Vector position, lane_uint material, Colors colors,
-                                   global const float* restrict materials,
-                                   lane_float* contribution) {
+static inline lane_int find_contributions(LightRecord light, const Incidence* i,
+                                          lane_float highlight, Vector position, lane_uint material,
+                                          Colors colors, global const float* restrict materials,
+                                          lane_float* contribution) {
     const lane_float diffuse = surface_diffuse(materials, material, colors) * i->cosine;
     const lane_float specular =
         surface_specular(materials, material, colors) *
@@ -145,13 +145,13 @@ static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_f
 }
 
 /// Adds the `lit` lanes' contributions to the radiance of the rays from `first` on.
-static inline void add_shares(const lane_float* contribution, lane_int lit, const RayBatch* batch,
-                              uint first) {
+static inline void add_contributions(const lane_float* contribution, lane_int lit,
+                                     const RayBatch* batch, uint first) {
     for (int channel = 0; channel < 3; ++channel) {
-        const uint place = (uint)channel * batch->stride + first;
-        const lane_float sum = LANES_LOAD(batch->radiance, place) + contribution[channel];
-        LANES_STORE(LANES_SELECT(lit, sum, LANES_LOAD(batch->radiance, place)), batch->radiance,
-                    place);
+        const uint index = (uint)channel * batch->stride + first;
+        const lane_float sum = LANES_LOAD(batch->radiance, index) + contribution[channel];
+        LANES_STORE(LANES_SELECT(lit, sum, LANES_LOAD(batch->radiance, index)), batch->radiance,
+                    index);
     }
 }
 
@@ -173,7 +173,7 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
     uint wanted = 0;
     for (int lane = 0; lane < VXL_LANES; ++lane) wanted += (uint)(lit_lane[lane] & 1);
     if (wanted == 0) return;
-    uint place = atomic_add(queue->count, wanted);
+    uint slot = atomic_add(queue->count, wanted);
     float queued[10 * VXL_LANES];
     uint source[VXL_LANES];
     LANES_STORE(r->origin.x, queued, 0 * VXL_LANES);
@@ -190,13 +190,13 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
     for (int lane = 0; lane < VXL_LANES; ++lane) {
         if (!lit_lane[lane]) continue;
         for (uint c = 0; c < VXL_RAY_COMPONENTS; ++c)
-            queue->rays[c * stride + place] = queued[c * VXL_LANES + (uint)lane];
+            queue->rays[c * stride + slot] = queued[c * VXL_LANES + (uint)lane];
         for (uint c = 0; c < 3; ++c)
-            queue->contributions[c * stride + place] =
+            queue->contributions[c * stride + slot] =
                 queued[(VXL_RAY_COMPONENTS + c) * VXL_LANES + (uint)lane];
-        queue->targets[place] = first + (uint)lane;
-        if (VXL_SOURCES) queue->sources[place] = source[lane];
-        ++place;
+        queue->targets[slot] = first + (uint)lane;
+        if (VXL_SOURCES) queue->sources[slot] = source[lane];
+        ++slot;
     }
 }
 
@@ -237,7 +237,7 @@ static inline void send_or_add(const ShadowQueue* queue, const LitRays* r, lane_
         if (VXL_SOURCES) source = sources_of(batch, first, behind);
         queue_rays(queue, r, lit, source, batch->stride, first);
     } else {
-        add_shares(r->contribution, lit, batch, first);
+        add_contributions(r->contribution, lit, batch, first);
     }
 }
 
@@ -260,11 +260,11 @@ static inline void shine_from(const WorldView* world, LightRecord light, Vector 
     const lane_float highlight = highlight_of(p.shading_normal, incidence.l, d, edge);
     LitRays r;
     aim_at_light(world->shape, light, &incidence, p.start, p.normal, &r);
-    lane_int some = find_shares(light, &incidence, highlight, p.position, p.material, p.colors,
-                                materials, r.contribution);
+    lane_int some = find_contributions(light, &incidence, highlight, p.position, p.material,
+                                       p.colors, materials, r.contribution);
     if (VXL_PHYSICAL)
-        some = find_physical_shares(light, &incidence, area, &p, d, edge, materials, some,
-                                    r.contribution);
+        some = find_physical_contributions(light, &incidence, area, &p, d, edge, materials, some,
+                                           r.contribution);
     send_or_add(queue, &r, p.lit & some, behind, batch, first);
 }
 

@@ -172,9 +172,9 @@ static inline lane_float farthest_point(const Emitters* e, const BoxView* b, Vec
     return fma(metres, more, metres);
 }
 
-/// Chooses an emitter by `choice`, and the point on its box's sides by `place`.
+/// Chooses an emitter by `choice`, and the point on its box's sides by `point`.
 static inline EmitterRays choose_emitter(const Emitters* e, Vector origin, float4 edge,
-                                         SquareBits choice, SquarePoint place) {
+                                         SquareBits choice, SquarePoint point) {
     const lane_float zero = (lane_float)0.0f, by_share = unit_interval(choice.y);
     const lane_uint slot = part_of(choice.x, e->count);
     const lane_uint r = slot * (uint)VXL_EMITTER_WORDS;
@@ -189,10 +189,10 @@ static inline EmitterRays choose_emitter(const Emitters* e, Vector origin, float
     const lane_int y = LANE_MASK(side < b.weight.x + b.weight.y) & ~x;
     const lane_int z = ~(x | y);
     const Vector target = {
-        LANES_SELECT(x, LANES_SELECT(LANE_MASK(b.at.x > 1.0f), (lane_float)1.0f, zero), place.x),
+        LANES_SELECT(x, LANES_SELECT(LANE_MASK(b.at.x > 1.0f), (lane_float)1.0f, zero), point.x),
         LANES_SELECT(y, LANES_SELECT(LANE_MASK(b.at.y > 1.0f), (lane_float)1.0f, zero),
-                     LANES_SELECT(x, place.x, place.y)),
-        LANES_SELECT(z, LANES_SELECT(LANE_MASK(b.at.z > 1.0f), (lane_float)1.0f, zero), place.y)};
+                     LANES_SELECT(x, point.x, point.y)),
+        LANES_SELECT(z, LANES_SELECT(LANE_MASK(b.at.z > 1.0f), (lane_float)1.0f, zero), point.y)};
     const Vector along = {target.x - b.at.x, target.y - b.at.y, target.z - b.at.z};
     const lane_float weight = LANES_SELECT(x, b.weight.x, LANES_SELECT(y, b.weight.y, b.weight.z));
     const lane_float across = LANES_SELECT(x, along.x, LANES_SELECT(y, along.y, along.z));
@@ -218,9 +218,9 @@ static inline lane_uint emitter_at(const Emitters* e, lane_uint voxel, lane_uint
     for (int lane = 0; lane < VXL_LANES; ++lane) {
         numbers[lane] = VXL_NO_EMITTER;
         if (!wants[lane]) continue;
-        uint place = emitter_hash(voxels[lane], instances[lane]) & (e->slots - 1u);
-        for (uint number; (number = e->table[place]) != VXL_NO_EMITTER;
-             place = (place + 1u) & (e->slots - 1u)) {
+        uint slot = emitter_hash(voxels[lane], instances[lane]) & (e->slots - 1u);
+        for (uint number; (number = e->table[slot]) != VXL_NO_EMITTER;
+             slot = (slot + 1u) & (e->slots - 1u)) {
             global const uint* record = words + (size_t)number * VXL_EMITTER_WORDS;
             if (record[VXL_EMITTER_VOXEL] != voxels[lane] ||
                 record[VXL_EMITTER_INSTANCE] != instances[lane])

@@ -27,12 +27,12 @@ typedef struct {
 /// entry, 1 at the last.
 static inline lane_float between_entries(global const float* restrict materials, lane_uint values,
                                          uint rows, uint row, lane_float at) {
-    const lane_float place = at * (float)(VXL_ALBEDO_ENTRIES - 1);
-    const lane_uint entry = min(LANES_UINT(place), (lane_uint)(VXL_ALBEDO_ENTRIES - 2));
+    const lane_float table_index = at * (float)(VXL_ALBEDO_ENTRIES - 1);
+    const lane_uint entry = min(LANES_UINT(table_index), (lane_uint)(VXL_ALBEDO_ENTRIES - 2));
     const lane_uint first = values + entry * rows + row;
     const lane_float low = LANES_GATHER_FLOAT(materials, first);
     const lane_float high = LANES_GATHER_FLOAT(materials, first + rows);
-    return fma(place - LANES_FLOAT(entry), high - low, low);
+    return fma(table_index - LANES_FLOAT(entry), high - low, low);
 }
 
 /// One of the VXL_ALBEDO_FLOATS numbers, interpolated between the two tables.

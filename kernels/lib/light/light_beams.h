@@ -7,11 +7,11 @@
 #include "shared/light_beams.h"
 
 /// The components b and c of a vector, across the grid's axis.
-static inline lane_float beside_b(const BeamGrid* g, lane_float x, lane_float y) {
+static inline lane_float across_b(const BeamGrid* g, lane_float x, lane_float y) {
     return g->axis == 0 ? y : x;
 }
 
-static inline lane_float beside_c(const BeamGrid* g, lane_float y, lane_float z) {
+static inline lane_float across_c(const BeamGrid* g, lane_float y, lane_float z) {
     return g->axis == 2 ? y : z;
 }
 
@@ -22,8 +22,8 @@ static inline lane_float clear_from(const BeamGrid* g, global const float* restr
     const lane_float oa = g->axis == 0 ? w->ox : g->axis == 1 ? w->oy : w->oz;
     const lane_float ia = g->axis == 0 ? w->ix : g->axis == 1 ? w->iy : w->iz;
     const lane_float t = (g->far_side - oa) * ia;
-    const lane_float at_b = fma(beside_b(g, w->dx, w->dy), t, beside_b(g, w->ox, w->oy));
-    const lane_float at_c = fma(beside_c(g, w->dy, w->dz), t, beside_c(g, w->oy, w->oz));
+    const lane_float at_b = fma(across_b(g, w->dx, w->dy), t, across_b(g, w->ox, w->oy));
+    const lane_float at_c = fma(across_c(g, w->dy, w->dz), t, across_c(g, w->oy, w->oz));
     const lane_float per_edge = exact_reciprocal((lane_float)g->edge);
     const lane_float column = (at_b - g->low_b) * per_edge, row = (at_c - g->low_c) * per_edge;
     const lane_int known = LANE_MASK(column >= 0.0f) & LANE_MASK(column < (float)g->columns) &

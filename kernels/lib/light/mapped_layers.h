@@ -26,14 +26,14 @@ static inline Layers layers_of(global const float* restrict materials, lane_uint
     facets->next = facets->first;
     facets->part = (lane_float)0.0f;
     if (!VXL_TEXTURE_MAPS || !colors.paint) return l;
-    const lane_float place = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_MAPPED);
-    l.mapped = LANE_MASK(place > 1.0f);
+    const lane_float means_index = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_MAPPED);
+    l.mapped = LANE_MASK(means_index > 1.0f);
     if (!lanes_any(l.mapped)) return l;
     const lane_float rough = painted(colors, VXL_PAINT_ROUGHNESS);
     const lane_float at = clamp(rough, 0.0f, 1.0f) * (float)(VXL_ROUGHNESS_STEPS - 1);
     const lane_uint step = min(LANES_UINT(at), (lane_uint)(VXL_ROUGHNESS_STEPS - 2));
     const lane_float part = at - LANES_FLOAT(step);
-    const lane_uint means = LANES_UINT(place) & LANES_AS_UINT(l.mapped);
+    const lane_uint means = LANES_UINT(means_index) & LANES_AS_UINT(l.mapped);
     lane_float mean[2];
     for (uint i = 0; i < 2; ++i) {
         const lane_float low = LANES_GATHER_FLOAT(materials, means + 2u * step + i);

@@ -11,7 +11,7 @@
 /// The weight of a light with an area for a ray that was sent to it, where rays that surfaces
 /// scatter find the same light with this density of directions: the balance heuristic (Veach &
 /// Guibas 1995), for points of the `area` that are equally probable.
-static inline lane_float sent_share(lane_float density, lane_float falloff, lane_float area) {
+static inline lane_float sent_weight(lane_float density, lane_float falloff, lane_float area) {
     const lane_float likelier = fmin(density * falloff * area, 1e30f);
     return exact_reciprocal(likelier + 1.0f);
 }
@@ -28,10 +28,11 @@ static inline lane_int scatters_to(const LitPoints* p, Vector direction) {
 /// Sets the light that the physically based ones among the points return towards the viewer.
 /// Returns the mask of points, of all kinds, that return any. Paths may also run into `area` square
 /// metres of the light.
-static inline lane_int find_physical_shares(LightRecord light, const Incidence* i, lane_float area,
-                                            const LitPoints* p, Vector d, float4 edge,
-                                            global const float* restrict materials, lane_int some,
-                                            lane_float* contribution) {
+static inline lane_int find_physical_contributions(LightRecord light, const Incidence* i,
+                                                   lane_float area, const LitPoints* p, Vector d,
+                                                   float4 edge,
+                                                   global const float* restrict materials,
+                                                   lane_int some, lane_float* contribution) {
     const Vector way = unit(scaled(d, edge));
     Vector normal = p->normal;
     if (VXL_SHADING_NORMALS)
@@ -46,8 +47,8 @@ static inline lane_int find_physical_shares(LightRecord light, const Incidence* 
     const lane_int above = physical_value(&view, i->l, value, &density);
     lane_float falloff = i->falloff * surface_opacity(materials, p->material, p->colors);
     if (VXL_AREA_SHARES)
-        falloff *= sent_share(LANES_SELECT(scatters_to(p, i->l), density, (lane_float)0.0f),
-                              i->falloff, area);
+        falloff *= sent_weight(LANES_SELECT(scatters_to(p, i->l), density, (lane_float)0.0f),
+                               i->falloff, area);
     const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     lane_int any_contribution = (lane_int)0;
     for (int c = 0; c < 3; ++c) {

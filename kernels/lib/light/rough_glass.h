@@ -29,13 +29,13 @@ typedef struct {
 static inline lane_float glass_missing(const GlassView* g, lane_uint side, lane_float cosine,
                                        lane_float width) {
     const lane_float by_width = exact_divide(cosine * (1.0f + width), cosine + width);
-    const lane_float place =
+    const lane_float table_index =
         (exact_sqrt(by_width) + cosine) * (0.5f * (float)(VXL_GLASS_ENTRIES - 1));
-    const lane_uint entry = min(LANES_UINT(place), (lane_uint)(VXL_GLASS_ENTRIES - 2));
+    const lane_uint entry = min(LANES_UINT(table_index), (lane_uint)(VXL_GLASS_ENTRIES - 2));
     const lane_uint first = side + entry * 2u;
     const lane_float low = LANES_GATHER_FLOAT(g->materials, first);
     const lane_float high = LANES_GATHER_FLOAT(g->materials, first + 2u);
-    return fma(place - LANES_FLOAT(entry), high - low, low);
+    return fma(table_index - LANES_FLOAT(entry), high - low, low);
 }
 
 /// The glass of `material`, whose surfaces are met from inside by the `leaving` lanes.

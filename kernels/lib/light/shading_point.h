@@ -33,27 +33,27 @@ static inline void light_triangles(const WorldView* world, const ShadedHit* h, V
     const lane_int triangle = h->exact & LANE_MASK((h->primitive & VXL_SOLID_PRIMITIVE) == 0u);
     const lane_uint number = h->primitive & LANES_AS_UINT(triangle);
     global const uint* packed = world->surface.triangle_normals;
-    const lane_uint place = number * (uint)VXL_TRIANGLE_NORMALS;
-    const lane_int curved = triangle & LANE_MASK(LANES_GATHER_UINT(packed, place) != VXL_NO_NORMAL);
+    const lane_uint index = number * (uint)VXL_TRIANGLE_NORMALS;
+    const lane_int curved = triangle & LANE_MASK(LANES_GATHER_UINT(packed, index) != VXL_NO_NORMAL);
     if (!lanes_any(curved)) return;
     const Vector o = h->ray.origin, d = h->ray.direction;
     Vector from[3];
-    lane_float share[3];
+    lane_float weight[3];
     for (uint i = 0; i < 3; ++i) {
         const Vector corner = triangle_corner(world->surface.triangles, number, i);
         from[i] = add_scaled(difference(o, corner), d, h->ray.t);
     }
-    corner_shares(from, share);
+    corner_weights(from, weight);
     Vector sum = {zero, zero, zero}, offset = sum;
     for (uint i = 0; i < 3; ++i) {
-        Vector g = unpack_normal(LANES_GATHER_UINT(packed, place + i));
+        Vector g = unpack_normal(LANES_GATHER_UINT(packed, index + i));
         g = select_vector(behind, opposite(g), g);
         const Vector metric = metric_gradient(world, h, g);
         const lane_float inverse = exact_reciprocal(exact_sqrt(dot_product(metric, metric)));
         const lane_float below = fmax(-dot_product(g, from[i]) * inverse, 0.0f);
         const Vector n = unit(metric);
-        sum = add_scaled(sum, n, share[i]);
-        offset = add_scaled(offset, n, share[i] * below);
+        sum = add_scaled(sum, n, weight[i]);
+        offset = add_scaled(offset, n, weight[i] * below);
     }
     sum = unit(sum);
     s->normal = select_vector(curved & LANE_MASK(dot_product(sum, sum) > 0.0f), sum, s->normal);
@@ -89,8 +89,8 @@ static inline lane_float rise_in_own_voxel(global const float* restrict cube_ste
 /// filled voxel's centre lies at most |h|_1 higher above the surface than the lowest centre of an
 /// empty voxel. Some of their faces look down from overhanging steps, and are lit like the others.
 static inline void light_cubes(const WorldView* world, const ShadedHit* h,
-                               global const float* restrict cube_steps, Vector place, Vector normal,
-                               ShadingPoint* s) {
+                               global const float* restrict cube_steps, Vector position,
+                               Vector normal, ShadingPoint* s) {
     const lane_int cubes =
         LANE_MASK((h->packed >> VXL_KIND_SHIFT) == VXL_KIND_CUBES) & h->hit & ~h->exact;
     const lane_uint code =
@@ -108,7 +108,7 @@ static inline void light_cubes(const WorldView* world, const ShadedHit* h,
     const Vector size = {fabs(g.x), fabs(g.y), fabs(g.z)};
     const lane_float across = LANES_SELECT(LANE_MASK(axis == 0u), size.x,
                                            LANES_SELECT(LANE_MASK(axis == 1u), size.y, size.z));
-    const Vector from = {place.x - 0.5f, place.y - 0.5f, place.z - 0.5f};
+    const Vector from = {position.x - 0.5f, position.y - 0.5f, position.z - 0.5f};
     const lane_float top = fma((lane_float)0.5f, size.x + size.y + size.z, across);
     lane_float rise = (lane_float)0.0f;
     if (VXL_RESAMPLED_CUBES) rise = rise_in_own_voxel(cube_steps, h, curved, g);
@@ -123,15 +123,15 @@ static inline void light_cubes(const WorldView* world, const ShadedHit* h,
     s->offset = select_vector(curved & begins_above, offset, s->offset);
 }
 
-/// The normals used for the light on points whose geometric normals are `normal`, at `place` in
+/// The normals used for the light on points whose geometric normals are `normal`, at `position` in
 /// their voxels, and how far above the surface rays to lights begin.
 static inline ShadingPoint shading_point(const WorldView* world, const ShadedHit* h,
-                                         global const float* restrict cube_steps, Vector place,
+                                         global const float* restrict cube_steps, Vector position,
                                          Vector normal, lane_int behind) {
     const lane_float zero = (lane_float)0.0f;
     ShadingPoint s = {normal, {zero, zero, zero}};
     if (VXL_CORNER_NORMALS) light_triangles(world, h, normal, behind, &s);
-    if (VXL_VOXEL_NORMALS) light_cubes(world, h, cube_steps, place, normal, &s);
+    if (VXL_VOXEL_NORMALS) light_cubes(world, h, cube_steps, position, normal, &s);
     return s;
 }
 

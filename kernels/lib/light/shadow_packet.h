@@ -112,8 +112,8 @@ static inline void bring_light(const ShadowRays* s, const ShadowPacket* f, lane_
     const uint stride = s->batch.stride;
     const lane_uint target = VXL_RAY_UINTS(s->queue.targets, f->packet.ray, VXL_REFILLS_SHADOWS);
     const uint first = LANES_FIRST(target);
-    const lane_int beside = LANE_MASK(target - first == LANES_AS_UINT(LANES_NUMBERS));
-    const bool in_a_row = VXL_LANES > 1 && !lanes_any(~(held & beside));
+    const lane_int neighbours = LANE_MASK(target - first == LANES_AS_UINT(LANES_NUMBERS));
+    const bool in_a_row = VXL_LANES > 1 && !lanes_any(~(held & neighbours));
     const Slots slots = slots_from(0, in_a_row ? (lane_int)0 : arrived);
     uint targets[VXL_LANES];
     LANES_STORE(target, targets, 0);

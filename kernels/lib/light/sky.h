@@ -31,9 +31,9 @@ static inline lane_float angle_of_cosine(lane_float x) {
 static inline lane_float perez(float4 abcd, float e, lane_float height, lane_float angle,
                                lane_float cosine) {
     const lane_float dim = exact_exp(exact_divide((lane_float)abcd.y, height));
-    const lane_float glow = fma((lane_float)abcd.z, exact_exp(abcd.w * angle),
-                                fma(e * cosine, cosine, (lane_float)1.0f));
-    return fma((lane_float)abcd.x, dim, (lane_float)1.0f) * glow;
+    const lane_float circumsolar = fma((lane_float)abcd.z, exact_exp(abcd.w * angle),
+                                       fma(e * cosine, cosine, (lane_float)1.0f));
+    return fma((lane_float)abcd.x, dim, (lane_float)1.0f) * circumsolar;
 }
 
 /// The clear sky of Preetham, Shirley and Smits 1999, "A Practical Analytic Model for Daylight".

@@ -43,7 +43,7 @@ typedef struct {
 /// Directions' positions on the picture, and the sine of their angle from the zenith.
 typedef struct {
     lane_float u, v, sine;
-} SkyPlace;
+} SkyPoint;
 
 /// The fractional part, in [0, 1), of a number in [-1, 2).
 static inline lane_float turned_into_unit(lane_float x) {
@@ -53,8 +53,8 @@ static inline lane_float turned_into_unit(lane_float x) {
 }
 
 /// The positions of unit vectors.
-static inline SkyPlace sky_place(const SkyMap* m, Vector way) {
-    SkyPlace p;
+static inline SkyPoint sky_point(const SkyMap* m, Vector way) {
+    SkyPoint p;
     p.sine = exact_sqrt(fma(way.x, way.x, way.z * way.z));
     p.u = turned_into_unit(fma(exact_atan2(way.x, way.z), -0.159154943f, 0.5f + m->of.turn));
     p.v = clamp(exact_atan2(p.sine, way.y) * 0.318309886f, 0.0f, 0.99999994f);
@@ -63,7 +63,7 @@ static inline SkyPlace sky_place(const SkyMap* m, Vector way) {
 
 /// The radiance along unit vectors: bilinear between the middles of texels.
 static inline void sky_map_light(const SkyMap* m, Vector way, lane_float* light) {
-    const SkyPlace p = sky_place(m, way);
+    const SkyPoint p = sky_point(m, way);
     const int width = m->of.width, height = m->of.height;
     const lane_float x = fma(p.u, (lane_float)(float)width, (lane_float)0.5f);
     const lane_float y = fma(p.v, (lane_float)(float)height, (lane_float)0.5f);
@@ -95,7 +95,7 @@ static inline lane_float density_in_cell(lane_float of_cell, lane_float sine) {
 
 /// The probability, per solid angle, with which `choose_sky_direction` chooses unit vectors.
 static inline lane_float sky_map_density(const SkyMap* m, Vector way) {
-    const SkyPlace p = sky_place(m, way);
+    const SkyPoint p = sky_point(m, way);
     const uint rows = (uint)m->of.rows, columns = (uint)m->of.columns;
     const lane_uint row = min(LANES_UINT(p.v * (float)rows), (lane_uint)(rows - 1u));
     const lane_uint column = min(LANES_UINT(p.u * (float)columns), (lane_uint)(columns - 1u));

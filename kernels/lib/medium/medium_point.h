@@ -71,9 +71,9 @@ static inline void put_ways(global uint* restrict hits, uint stride, lane_float 
 
 /// The weight in a light's estimate of a point found by chance; points chosen near the light have
 /// the rest.
-static inline lane_float share_of_chance(LightRecord light, float4 edge, Vector to_light,
-                                         Vector way, global const uint* restrict hits, uint stride,
-                                         uint first, lane_int valid) {
+static inline lane_float chance_weight(LightRecord light, float4 edge, Vector to_light, Vector way,
+                                       global const uint* restrict hits, uint stride, uint first,
+                                       lane_int valid) {
     const lane_float came = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_CAME * stride + first));
     const lane_float ahead = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_AHEAD * stride + first));
     const lane_float density = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_DENSITY * stride + first));

@@ -29,7 +29,7 @@ static inline void add_stretch(const DensityCell* cell, global const float* rest
                                Veil* veil) {
     add_exactly(&veil->depth, &veil->lost, depth, adding);
     for (int channel = 0; channel < 3; ++channel) {
-        const lane_float color = LANES_GATHER_FLOAT(colors, cell->place * 3u + (uint)channel);
+        const lane_float color = LANES_GATHER_FLOAT(colors, cell->index * 3u + (uint)channel);
         const lane_float shown =
             veil->transmittance[channel] * exact_rise(absorption[channel] * depth);
         veil->emitted[channel] = fma(shown, color, veil->emitted[channel]);

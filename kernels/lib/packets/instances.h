@@ -48,7 +48,7 @@ static inline lane_int cell_before(lane_int nearest, lane_float o, lane_float in
                                    lane_int positive, lane_int moves, lane_float t_first,
                                    lane_int still) {
     const lane_int crossed = LANE_MASK((LANES_FLOAT(nearest) - o) * inverse < t_first);
-    return LANES_SELECT(moves, cell_beside(nearest, crossed, positive), still);
+    return LANES_SELECT(moves, cell_next_to(nearest, crossed, positive), still);
 }
 
 /// Moves walks whose origins lie outside an aligned instance's box to the first cell in the box,

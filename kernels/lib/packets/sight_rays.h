@@ -48,10 +48,10 @@ static inline bool beam_is_clear(const RayBatch* batch, uint first) {
 /// Rounding may make the cell wrong; the next one is the walk's own again.
 static inline void ride_beam(const RayBatch* batch, uint first, Walk* w) {
     global const uint* beams = batch->beams;
-    const uint beam = first / VXL_BEAM_RAYS, places = VXL_BEAM_SLOTS(batch->stride);
-    const uint towards = beams[VXL_BEAM_AXIS * places + beam];
+    const uint beam = first / VXL_BEAM_RAYS, slots = VXL_BEAM_SLOTS(batch->stride);
+    const uint towards = beams[VXL_BEAM_AXIS * slots + beam];
     if (towards == VXL_BEAM_NONE) return;
-    const float s = as_float(beams[VXL_BEAM_START * places + beam]);
+    const float s = as_float(beams[VXL_BEAM_START * slots + beam]);
     const float plane = (towards & VXL_BEAM_DOWN) != 0u ? -s : s;
     const uint axis = towards & 3u;
     const lane_float o = axis == 0u ? w->ox : axis == 1u ? w->oy : w->oz;

@@ -28,19 +28,19 @@
 /// Two bits of a pixel's position, rearranged.
 typedef struct {
     lane_uint u, v;
-} PlaceDigit;
+} PositionDigit;
 
 /// The quarter of a square of 2^(j + 1) x 2^(j + 1) that a pixel lies in, rearranged by 16 random
 /// bits of the square: any two quarters become any two others with almost the same probability. To
 /// this end, the bits of the position and their sum are rotated; any two of these determine the
 /// third.
-static inline PlaceDigit rearranged_digit(lane_uint pixel, uint j, lane_uint random) {
+static inline PositionDigit rearranged_digit(lane_uint pixel, uint j, lane_uint random) {
     const lane_uint u = pixel >> j, v = pixel >> (16 + j), sum = u ^ v;
     const lane_uint turns = (((random >> 8) & 0xFFu) * 3u) >> 8;
     const lane_int stays = LANE_MASK(turns == 0u), turns_once = LANE_MASK(turns == 1u);
     const lane_uint first = LANES_SELECT(stays, u, LANES_SELECT(turns_once, v, sum));
     const lane_uint second = LANES_SELECT(stays, v, LANES_SELECT(turns_once, sum, u));
-    const PlaceDigit digit = {(first ^ random) & 1u, (second ^ (random >> 1)) & 1u};
+    const PositionDigit digit = {(first ^ random) & 1u, (second ^ (random >> 1)) & 1u};
     return digit;
 }
 
@@ -74,8 +74,8 @@ static inline lane_uint random_for(lane_uint mixed, lane_uint seed) {
 /// The values that pixels add to the digits of Sobol's points. The first digit of each coordinate
 /// is the lowest bit.
 static inline SquareBits digits_of_pixel(const SampledPixels* s, lane_uint seed) {
-    const PlaceDigit fine = rearranged_digit(s->pixel, 0u, random_for(s->quarter, seed));
-    const PlaceDigit coarse = rearranged_digit(s->pixel, 1u, seed >> 16);
+    const PositionDigit fine = rearranged_digit(s->pixel, 0u, random_for(s->quarter, seed));
+    const PositionDigit coarse = rearranged_digit(s->pixel, 1u, seed >> 16);
     // 1 / (1 + z + z^2) as a power series, 1 + z + z^3 + z^4 + z^6 ..., and its square.
     const uint series = 0xDB6DB6DBu, squared = 0x45145145u;
     const lane_uint of_one = (-fine.u & series) ^ (-coarse.u & squared);

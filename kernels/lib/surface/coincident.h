@@ -36,14 +36,14 @@ static inline lane_int is_primitive(lane_uint number) {
 }
 
 /// The rank of a primitive's object in the order of coincident surfaces.
-static inline lane_uint place_in_order(const SurfaceView* s, const RayState* ray_state,
-                                       lane_uint primitive, lane_int some) {
+static inline lane_uint rank_in_order(const SurfaceView* s, const RayState* ray_state,
+                                      lane_uint primitive, lane_int some) {
     const lane_uint packed = attributes_of_hit(s, (lane_uint)0, primitive, some);
     const lane_uint object = packed & VXL_OBJECT_MASK & LANES_AS_UINT(some);
-    lane_uint place = LANES_GATHER_UINT(s->order, object);
+    lane_uint rank = LANES_GATHER_UINT(s->order, object);
     if (VXL_TRANSMISSION)
-        place |= LANES_AS_UINT(medium_set_holds(&ray_state->media, packed)) & VXL_ORDER_LEAVING;
-    return place;
+        rank |= LANES_AS_UINT(medium_set_holds(&ray_state->media, packed)) & VXL_ORDER_LEAVING;
+    return rank;
 }
 
 /// Mask: among the lanes that `met` a primitive at `at`, those that take it instead of what they
@@ -56,8 +56,8 @@ static inline lane_int comes_first(const SurfaceView* s, const RayState* ray_sta
     const lane_int both =
         met & is_primitive(found->primitive) & LANE_MASK(fabs(at - found->t) <= slack);
     if (!lanes_any(both)) return closer;
-    const lane_uint own = place_in_order(s, ray_state, primitive, both);
-    const lane_uint other = place_in_order(s, ray_state, found->primitive, both);
+    const lane_uint own = rank_in_order(s, ray_state, primitive, both);
+    const lane_uint other = rank_in_order(s, ray_state, found->primitive, both);
     return LANES_SELECT(both & LANE_MASK(own != other), LANE_MASK(own < other), closer);
 }
 
@@ -66,13 +66,13 @@ static inline lane_int comes_first(const SurfaceView* s, const RayState* ray_sta
 /// `front`; it meets the back only if it is `within` the object, or if it `goes_on` and the object
 /// comes after the source's: that is the back of a sheet, which has no inside.
 static inline lane_int is_ahead(const SurfaceView* s, const RayState* ray_state,
-                                lane_uint primitive, lane_float at, lane_int at_least,
+                                lane_uint primitive, lane_float at, lane_int counts_at_first,
                                 lane_int front, lane_int within, lane_int goes_on, lane_int near) {
     const lane_uint some = LANES_AS_UINT(near) & VXL_OBJECT_MASK;
     const lane_uint own = attributes_of_hit(s, (lane_uint)0, primitive, near) & some;
     const lane_uint source = attributes_of_hit(s, (lane_uint)0, ray_state->source, near) & some;
-    const lane_int later =
-        LANE_MASK(at > ray_state->t_first) | (at_least & LANE_MASK(at == ray_state->t_first));
+    const lane_int later = LANE_MASK(at > ray_state->t_first) |
+                           (counts_at_first & LANE_MASK(at == ray_state->t_first));
     lane_int ahead = front | within;
     if (VXL_TRANSMISSION)
         ahead |= goes_on &
@@ -103,19 +103,20 @@ static inline RayBeginning beginning_of(const PyramidView* p, const SurfaceView*
 static inline lane_int hit_triangle_ahead(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                           lane_uint number, const RayShear* shear,
                                           const RayState* ray_state, const RayBeginning* from,
-                                          lane_float t_min, lane_int at_least, lane_int within,
-                                          lane_int outside, lane_int tested, lane_float* t) {
+                                          lane_float t_min, lane_int counts_at_first,
+                                          lane_int within, lane_int outside, lane_int tested,
+                                          lane_float* t) {
     lane_int front = (lane_int)0;
     lane_float at = *t;
     const lane_float back = LANES_SELECT(from->goes_on, from->slack, (lane_float)0.0f);
-    lane_int met = hit_triangle(p, t_min - back, at_least, s->triangles, number, w, shear, within,
-                                outside, tested, &at, &front);
+    lane_int met = hit_triangle(p, t_min - back, counts_at_first, s->triangles, number, w, shear,
+                                within, outside, tested, &at, &front);
     if (may_coincide(s)) {
         const lane_int near =
             met & from->begins & LANE_MASK(at <= ray_state->t_first + from->slack);
         if (lanes_any(near))
-            met &= ~near |
-                   is_ahead(s, ray_state, number, at, at_least, front, within, from->goes_on, near);
+            met &= ~near | is_ahead(s, ray_state, number, at, counts_at_first, front, within,
+                                    from->goes_on, near);
     }
     *t = LANES_SELECT(met, at, *t);
     return met;

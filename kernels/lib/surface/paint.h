@@ -17,7 +17,7 @@
 
 /// The minimum cosine for which footprints on textures are computed; below it they would be
 /// unbounded.
-#define VXL_LEAST_SEEN 0.015625f
+#define VXL_MIN_SEEN_COSINE 0.015625f
 
 /// What rays span where they met surfaces: two vectors across the rays, in metres.
 typedef struct {
@@ -91,7 +91,7 @@ static inline RaySpan span_of(const Footprint* f, float4 edge, Vector position, 
 /// The vector moved along the unit vectors `way` onto the surface with this normal; `way` points
 /// against the normal.
 static inline Vector on_surface(Vector v, Vector normal, Vector way) {
-    const lane_float seen = fmin(dot_product(normal, way), (lane_float)-VXL_LEAST_SEEN);
+    const lane_float seen = fmin(dot_product(normal, way), (lane_float)-VXL_MIN_SEEN_COSINE);
     return add_scaled(v, way, -exact_divide(dot_product(v, normal), seen));
 }
 
@@ -112,7 +112,7 @@ typedef struct {
     lane_uint worn;            // where the record of what it wears begins
     lane_uint texture;         // where its texture begins
     Vector ab, ac;             // its sides from the first corner
-    lane_float share[3];       // weights of the corners at the point
+    lane_float weight[3];      // weights of the corners at the point
     const Vector* sides;       // the ray's span on the surface, in the space of `ab` and `ac`
     global const uint* words;  // the records
     global const uint* textures;
@@ -126,15 +126,15 @@ static inline TextureArea area_of(const WornTriangle* w, const RaySpan* span) {
     const lane_int some = LANE_MASK(squared > 0.0f);
     const lane_float inverse = LANES_SELECT(
         some, exact_reciprocal(LANES_SELECT(some, squared, (lane_float)1.0f)), (lane_float)0.0f);
-    global const float* places = (global const float*)w->words;
+    global const float* uvs = (global const float*)w->words;
     lane_float u[3], v[3];
     TextureArea area;
     area.u = area.v = (lane_float)0.0f;
     for (uint i = 0; i < 3; ++i) {
-        u[i] = LANES_GATHER_FLOAT(places, w->worn + (VXL_WORN_UVS + 2u * i));
-        v[i] = LANES_GATHER_FLOAT(places, w->worn + (VXL_WORN_UVS + 2u * i + 1u));
-        area.u = fma(w->share[i], u[i], area.u);
-        area.v = fma(w->share[i], v[i], area.v);
+        u[i] = LANES_GATHER_FLOAT(uvs, w->worn + (VXL_WORN_UVS + 2u * i));
+        v[i] = LANES_GATHER_FLOAT(uvs, w->worn + (VXL_WORN_UVS + 2u * i + 1u));
+        area.u = fma(w->weight[i], u[i], area.u);
+        area.v = fma(w->weight[i], v[i], area.v);
     }
     for (int i = 0; i < 2; ++i) {
         const lane_float b = dot_product(cross_of(w->sides[i], w->ac), n) * inverse;
@@ -164,7 +164,7 @@ static inline lane_float paint_triangles(const WornTriangle* w, const RaySpan* s
     for (int c = 0; c < 3; ++c) {
         lane_float between = (lane_float)0.0f;
         for (int i = 0; i < 3; ++i)
-            between = fma(w->share[i],
+            between = fma(w->weight[i],
                           LANES_GATHER_FLOAT(curve, (corner[i] >> (uint)(8 * c)) & 255u), between);
         color[c] = LANES_SELECT(w->wears, mean[c] * between, color[c]);
     }
@@ -188,7 +188,7 @@ static inline void paint_exact(const WorldView* world, const ShadedHit* h, const
         const Vector corner = triangle_corner(world->surface.triangles, number, i);
         from[i] = add_scaled(difference(h->ray.origin, corner), h->ray.direction, h->ray.t);
     }
-    corner_shares(from, w.share);
+    corner_weights(from, w.weight);
     w.ab = difference(from[0], from[1]), w.ac = difference(from[0], from[2]);
     w.sides = sides;
     const lane_float alpha = paint_triangles(&w, span, color, maps);
@@ -209,7 +209,7 @@ static inline void paint_smooth(const SourceMeshes* sources, Vector at, lane_uin
     w.wears = s.found & LANE_MASK(w.texture != VXL_NO_TEXTURE);
     w.texture += s.textures;
     if (!lanes_any(w.wears)) return;
-    closest_on_triangle(s.from, w.share);
+    closest_on_triangle(s.from, w.weight);
     w.ab = difference(s.from[0], s.from[1]), w.ac = difference(s.from[0], s.from[2]);
     w.sides = s.sides;
     paint_triangles(&w, span, color, maps);

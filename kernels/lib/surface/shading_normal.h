@@ -35,7 +35,7 @@ static inline Vector cross_of(Vector a, Vector b) {
 
 /// The weights of a triangle's corners at a point on it; each is at least 0, and their sum is 1.
 /// `from` is the point relative to each corner.
-static inline void corner_shares(const Vector* from, lane_float* share) {
+static inline void corner_weights(const Vector* from, lane_float* weight) {
     const Vector ab = difference(from[0], from[1]), ac = difference(from[0], from[2]);
     const Vector n = cross_of(ab, ac);
     const lane_float squared = dot_product(n, n);
@@ -44,13 +44,13 @@ static inline void corner_shares(const Vector* from, lane_float* share) {
     const lane_float zero = (lane_float)0.0f;
     for (int i = 0; i < 3; ++i) {
         const Vector opposite_part = cross_of(from[(i + 1) % 3], from[(i + 2) % 3]);
-        share[i] = fmax(dot_product(opposite_part, n) * inverse, zero);
+        weight[i] = fmax(dot_product(opposite_part, n) * inverse, zero);
     }
-    const lane_float sum = share[0] + share[1] + share[2];
+    const lane_float sum = weight[0] + weight[1] + weight[2];
     const lane_int some = LANE_MASK(sum > 0.0f);
     const lane_float per_sum = exact_reciprocal(LANES_SELECT(some, sum, (lane_float)1.0f));
     for (int i = 0; i < 3; ++i)
-        share[i] = LANES_SELECT(some, share[i] * per_sum, (lane_float)(1.0f / 3.0f));
+        weight[i] = LANES_SELECT(some, weight[i] * per_sum, (lane_float)(1.0f / 3.0f));
 }
 
 /// How a surface point is lit.

@@ -24,22 +24,22 @@ typedef struct {
 
 /// The square of the distance from a point to the closest point of a triangle, and the weights of
 /// the corners there. `from` is the point relative to each corner.
-static inline lane_float closest_on_triangle(const Vector* from, lane_float* share) {
+static inline lane_float closest_on_triangle(const Vector* from, lane_float* weight) {
     const Vector ab = difference(from[0], from[1]), ac = difference(from[0], from[2]);
     const Vector n = cross_of(ab, ac);
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     lane_int above = (lane_int)-1;  // mask: above the triangle, not beside one of its edges
     for (int i = 0; i < 3; ++i) {
-        share[i] = dot_product(cross_of(from[(i + 1) % 3], from[(i + 2) % 3]), n);
-        above &= LANE_MASK(share[i] >= 0.0f);
+        weight[i] = dot_product(cross_of(from[(i + 1) % 3], from[(i + 2) % 3]), n);
+        above &= LANE_MASK(weight[i] >= 0.0f);
     }
-    const lane_float sum = share[0] + share[1] + share[2];
+    const lane_float sum = weight[0] + weight[1] + weight[2];
     above &= LANE_MASK(sum > 0.0f);
     const lane_float inverse = exact_reciprocal(LANES_SELECT(above, sum, one));
     Vector off = {zero, zero, zero};
     for (int i = 0; i < 3; ++i) {
-        share[i] *= inverse;
-        off = add_scaled(off, from[i], share[i]);
+        weight[i] *= inverse;
+        off = add_scaled(off, from[i], weight[i]);
     }
     lane_float squared = LANES_SELECT(above, dot_product(off, off), (lane_float)INFINITY);
     if (!lanes_any(~above)) return squared;
@@ -55,9 +55,9 @@ static inline lane_float closest_on_triangle(const Vector* from, lane_float* sha
         const lane_float there = dot_product(away, away);
         const lane_int closer = LANE_MASK(there < squared);
         squared = LANES_SELECT(closer, there, squared);
-        share[i] = LANES_SELECT(closer, one - t, share[i]);
-        share[next] = LANES_SELECT(closer, t, share[next]);
-        share[3 - i - next] = LANES_SELECT(closer, zero, share[3 - i - next]);
+        weight[i] = LANES_SELECT(closer, one - t, weight[i]);
+        weight[next] = LANES_SELECT(closer, t, weight[next]);
+        weight[3 - i - next] = LANES_SELECT(closer, zero, weight[3 - i - next]);
     }
     return squared;
 }
@@ -79,8 +79,8 @@ static inline void meet_triangle(global const float* corners, uint number, Vecto
         const Vector seen = {p.x - c[3 * i], p.y - c[3 * i + 1], p.z - c[3 * i + 2]};
         from[i] = seen;
     }
-    lane_float share[3];
-    const lane_float squared = closest_on_triangle(from, share);
+    lane_float weight[3];
+    const lane_float squared = closest_on_triangle(from, weight);
     const lane_int closer =
         active & (LANE_MASK(squared < best->squared) |
                   (LANE_MASK(squared == best->squared) & LANE_MASK(number < best->triangle)));
@@ -158,7 +158,7 @@ static inline Vector in_mesh(global const SourceRecord* r, Vector v) {
 }
 
 /// Converts a point from the voxels of hits to the mesh's space.
-static inline Vector place_in_mesh(global const SourceRecord* r, Vector v) {
+static inline Vector point_in_mesh(global const SourceRecord* r, Vector v) {
     global const float* m = r->mesh_from_voxels;
     const Vector mapped = {fma(m[0], v.x, fma(m[1], v.y, fma(m[2], v.z, (lane_float)m[3]))),
                            fma(m[4], v.x, fma(m[5], v.y, fma(m[6], v.z, (lane_float)m[7]))),
@@ -184,7 +184,7 @@ static inline SourceHit closest_of_points(const SourceMeshes* sources, Vector at
         left &= ~same;
         global const SourceRecord* r = sources->objects + one;
         if (r->nodes == VXL_NO_SOURCE) continue;
-        const Vector p = place_in_mesh(r, at);
+        const Vector p = point_in_mesh(r, at);
         ClosestTriangle best = {(lane_float)(r->reach * r->reach), (lane_uint)VXL_NO_PRIMITIVE};
         search_tree((global const InstanceNode*)(words + r->nodes), numbers + r->triangles, p, same,
                     &best);

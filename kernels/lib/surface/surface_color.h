@@ -86,9 +86,9 @@ static inline lane_float voxel_opacity(global const uint* restrict colors, lane_
 
 /// The colour of a surface point: that of its material (see color_offset) times its own, which is
 /// the voxel's or, in scenes with textures, the hit's. Colors has both.
-static inline lane_float surface_color(global const float* restrict materials, lane_uint place,
-                                       Colors colors, int channel) {
-    lane_float color = LANES_GATHER_FLOAT(materials, place + (uint)channel);
+static inline lane_float surface_color(global const float* restrict materials,
+                                       lane_uint color_index, Colors colors, int channel) {
+    lane_float color = LANES_GATHER_FLOAT(materials, color_index + (uint)channel);
     if (VXL_TEXTURES && colors.paint)
         color *= painted(colors, (uint)channel);
     else if (VXL_COLORS)
@@ -96,10 +96,11 @@ static inline lane_float surface_color(global const float* restrict materials, l
     return color;
 }
 
-/// A value of the material. Where maps may change it, the paint of hits holds it at index `place`.
+/// A value of the material. Where maps may change it, the paint of hits holds it at index
+/// `paint_index`.
 static inline lane_float mapped_value(global const float* restrict materials, lane_uint value,
-                                      Colors colors, uint place) {
-    if (VXL_TEXTURE_MAPS && colors.paint) return painted(colors, place);
+                                      Colors colors, uint paint_index) {
+    if (VXL_TEXTURE_MAPS && colors.paint) return painted(colors, paint_index);
     return LANES_GATHER_FLOAT(materials, value);
 }
 

@@ -43,13 +43,14 @@ static inline lane_float float_before(lane_float t) {
 }
 
 /// Tests solid `number` of each lane in `tested`; hits in the world that are closer than *t replace
-/// it. Hits at t_first itself count only in the lanes of `at_least`. `entering` lanes begin one
-/// unit of t before their origin.
+/// it. Hits at t_first itself count only in the lanes of `counts_at_first`. `entering` lanes begin
+/// one unit of t before their origin.
 static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
                                             const Walk* w, lane_uint number,
                                             const RayState* ray_state, const RayBeginning* from,
-                                            lane_int tested, lane_int from_solid, lane_int at_least,
-                                            lane_int entering, lane_float* t) {
+                                            lane_int tested, lane_int from_solid,
+                                            lane_int counts_at_first, lane_int entering,
+                                            lane_float* t) {
     lane_int closer = (lane_int)0;
     const lane_int nothing = (lane_int)0;
     const lane_int early = tested & entering;
@@ -71,7 +72,7 @@ static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceV
         lane_int known = from_solid;
         lane_float t_first = ray_state->t_first;
         if (VXL_TRANSMISSION) {
-            t_first = LANES_SELECT(at_least, float_before(t_first), t_first);
+            t_first = LANES_SELECT(counts_at_first, float_before(t_first), t_first);
             const lane_int holds =
                 medium_set_holds(&ray_state->media, solid_attributes(s->solids, number));
             known |= holds;
@@ -122,10 +123,10 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
             LANES_AS_UINT(listing);
         const lane_int of_source = LANE_MASK(primitive == ray_state->source);
         const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
-        lane_int closer = (lane_int)0, at_least = (lane_int)0;
+        lane_int closer = (lane_int)0, counts_at_first = (lane_int)0;
         lane_float at = found->t + from.slack;
         if (VXL_TRANSMISSION)
-            at_least = ray_state->goes_on & comes_after(primitive, ray_state->source);
+            counts_at_first = ray_state->goes_on & comes_after(primitive, ray_state->source);
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~(is_solid | of_source);
             if (!VXL_SOLIDS || lanes_any(triangle)) {
@@ -137,7 +138,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
                     if (VXL_MIXED) outside = is_of_object(ray_state->field_of, packed);
                 }
                 closer |= hit_triangle_ahead(p, s, w, number, &shear, ray_state, &from, t_min,
-                                             at_least, within, outside, triangle, &at);
+                                             counts_at_first, within, outside, triangle, &at);
             }
         }
         if (VXL_SOLIDS) {  // one test of a solid covers the whole ray
@@ -146,7 +147,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
             if (lanes_any(solid))
                 closer |= hit_solids_in_world(
                     p, s, w, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid), ray_state,
-                    &from, solid, of_source, at_least, entering, &at);
+                    &from, solid, of_source, counts_at_first, entering, &at);
         }
         closer = comes_first(s, ray_state, primitive, at, from.slack, closer, found);
         found->t = LANES_SELECT(closer, at, found->t);

@@ -39,18 +39,18 @@ static inline lane_float alpha_of_hits(const WorldView* world, Vector origin, Ve
         ray = transform_hits(world->instances.records, instance,
                              wears & LANE_MASK(instance != VXL_NO_INSTANCE), ray);
     Vector from[3];
-    lane_float share[3], mean[4];
+    lane_float weight[3], mean[4];
     for (uint i = 0; i < 3; ++i) {
         const Vector corner = triangle_corner(world->surface.triangles, number, i);
         from[i] = add_scaled(difference(ray.origin, corner), ray.direction, ray.t);
     }
-    corner_shares(from, share);
+    corner_weights(from, weight);
     TextureArea area;
     area.u = area.v = (lane_float)0.0f;
     for (uint i = 0; i < 3; ++i) {
-        const lane_uint place = worn + (VXL_WORN_UVS + 2u * i);
-        area.u = fma(share[i], LANES_GATHER_FLOAT((global const float*)words, place), area.u);
-        area.v = fma(share[i], LANES_GATHER_FLOAT((global const float*)words, place + 1u), area.v);
+        const lane_uint index = worn + (VXL_WORN_UVS + 2u * i);
+        area.u = fma(weight[i], LANES_GATHER_FLOAT((global const float*)words, index), area.u);
+        area.v = fma(weight[i], LANES_GATHER_FLOAT((global const float*)words, index + 1u), area.v);
     }
     for (int i = 0; i < 2; ++i)
         area.side_u[i] = area.side_v[i] = area.off[i] = area.lean[i] = (lane_float)0.0f;

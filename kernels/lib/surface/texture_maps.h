@@ -19,20 +19,23 @@ static inline MapValues no_map_values(void) {
     return m;
 }
 
-/// Sets `mean` to the mean over `area` of map number `map` of the textures that begin at `place`.
-/// Returns the mask of lanes that have this map.
-static inline lane_int map_mean(global const uint* restrict textures, lane_uint place, uint map,
-                                const TextureArea* area, lane_int wears, lane_float* mean) {
-    const lane_uint wrap = LANES_GATHER_UINT(textures, (place & LANES_AS_UINT(wears)) + 2u);
+/// Sets `mean` to the mean over `area` of map number `map` of the textures that begin at
+/// `first_word`. Returns the mask of lanes that have this map.
+static inline lane_int map_mean(global const uint* restrict textures, lane_uint first_word,
+                                uint map, const TextureArea* area, lane_int wears,
+                                lane_float* mean) {
+    const lane_uint wrap = LANES_GATHER_UINT(textures, (first_word & LANES_AS_UINT(wears)) + 2u);
     lane_int has = wears & LANE_MASK((wrap & VXL_TEXTURE_HAS_MAPS) != 0u);
     if (!lanes_any(has)) return has;
-    const lane_uint record = (place - (VXL_MAP_COUNT - map) * VXL_MAP_WORDS) & LANES_AS_UINT(has);
+    const lane_uint record =
+        (first_word - (VXL_MAP_COUNT - map) * VXL_MAP_WORDS) & LANES_AS_UINT(has);
     const lane_uint offset = LANES_GATHER_UINT(textures, record + VXL_MAP_OFFSET);
     has &= LANE_MASK(offset != 0u);
     if (!lanes_any(has)) return has;
     global const float* floats = (global const float*)textures;
     lane_float m[6];
-    for (uint i = 0; i < 6; ++i) m[i] = LANES_GATHER_FLOAT(floats, record + (VXL_MAP_PLACES + i));
+    for (uint i = 0; i < 6; ++i)
+        m[i] = LANES_GATHER_FLOAT(floats, record + (VXL_MAP_TRANSFORM + i));
     TextureArea own = *area;
     own.u = fma(m[0], area->u, fma(m[1], area->v, m[2]));
     own.v = fma(m[3], area->u, fma(m[4], area->v, m[5]));
@@ -40,20 +43,21 @@ static inline lane_int map_mean(global const uint* restrict textures, lane_uint 
         own.side_u[i] = fma(m[0], area->side_u[i], m[1] * area->side_v[i]);
         own.side_v[i] = fma(m[3], area->side_u[i], m[4] * area->side_v[i]);
     }
-    mean_over(textures, place + offset, &own, has, map == VXL_MAP_GLOSS, mean);
+    mean_over(textures, first_word + offset, &own, has, map == VXL_MAP_GLOSS, mean);
     return has;
 }
 
-/// Sets the values of the maps of the textures that begin at `place`, over `area`.
-static inline void set_maps(global const uint* restrict textures, lane_uint place,
+/// Sets the values of the maps of the textures that begin at `first_word`, over `area`.
+static inline void set_maps(global const uint* restrict textures, lane_uint first_word,
                             const TextureArea* area, lane_int wears, MapValues* m) {
     lane_float mean[4];
-    const lane_int gloss = map_mean(textures, place, VXL_MAP_GLOSS, area, wears, mean);
+    const lane_int gloss = map_mean(textures, first_word, VXL_MAP_GLOSS, area, wears, mean);
     if (lanes_any(gloss)) {
         m->roughness = LANES_SELECT(gloss, mean[1], m->roughness);
         m->metallic = LANES_SELECT(gloss, mean[2], m->metallic);
     }
-    const lane_int is_emissive = map_mean(textures, place, VXL_MAP_EMISSION, area, wears, mean);
+    const lane_int is_emissive =
+        map_mean(textures, first_word, VXL_MAP_EMISSION, area, wears, mean);
     if (lanes_any(is_emissive))
         for (int c = 0; c < 3; ++c)
             m->emission[c] = LANES_SELECT(is_emissive, mean[c], m->emission[c]);
@@ -100,12 +104,12 @@ static inline void map_material(global const float* restrict materials, lane_uin
         metallic * smooth,
         exact_divide(of_metal, LANES_SELECT(shines, specular, one)),
         one};
-    const uint places[VXL_MAPPED_VALUES] = {VXL_MATERIAL_DIFFUSE,        VXL_MATERIAL_SPECULAR,
-                                            VXL_MATERIAL_SHININESS,      VXL_MATERIAL_REFLECTION,
-                                            VXL_MATERIAL_HIGHLIGHT_TINT, VXL_MATERIAL_MIRROR_TINT};
+    const uint indices[VXL_MAPPED_VALUES] = {VXL_MATERIAL_DIFFUSE,        VXL_MATERIAL_SPECULAR,
+                                             VXL_MATERIAL_SHININESS,      VXL_MATERIAL_REFLECTION,
+                                             VXL_MATERIAL_HIGHLIGHT_TINT, VXL_MATERIAL_MIRROR_TINT};
     for (int i = 0; i < VXL_MAPPED_VALUES; ++i)
         values[i] =
-            LANES_SELECT(takes, own[i], LANES_GATHER_FLOAT(materials, material + places[i]));
+            LANES_SELECT(takes, own[i], LANES_GATHER_FLOAT(materials, material + indices[i]));
 }
 
 #endif

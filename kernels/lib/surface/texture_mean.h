@@ -34,24 +34,25 @@ typedef struct {
     lane_float off[2], lean[2];
 } TextureArea;
 
-/// The first level of the textures that begin at `place`; one harmless texel for lanes outside
+/// The first level of the textures that begin at `first_word`; one harmless texel for lanes outside
 /// `wears`.
-static inline TextureLevel first_level(global const uint* restrict textures, lane_uint place,
+static inline TextureLevel first_level(global const uint* restrict textures, lane_uint first_word,
                                        lane_int wears) {
     TextureLevel t;
-    place &= LANES_AS_UINT(wears);
+    first_word &= LANES_AS_UINT(wears);
     t.textures = textures;
-    t.width = LANES_AS_INT(LANES_GATHER_UINT(textures, place));
-    t.height = LANES_AS_INT(LANES_GATHER_UINT(textures, place + 1u));
+    t.width = LANES_AS_INT(LANES_GATHER_UINT(textures, first_word));
+    t.height = LANES_AS_INT(LANES_GATHER_UINT(textures, first_word + 1u));
     t.width = LANES_SELECT(wears, t.width, (lane_int)1);
     t.height = LANES_SELECT(wears, t.height, (lane_int)1);
-    const lane_uint wrap = LANES_GATHER_UINT(textures, place + 2u) & LANES_AS_UINT(wears);
+    const lane_uint wrap = LANES_GATHER_UINT(textures, first_word + 2u) & LANES_AS_UINT(wears);
     t.wrap_u = wrap & VXL_TEXTURE_WRAP_MASK;
     t.wrap_v = wrap >> VXL_TEXTURE_WRAP_V_SHIFT & VXL_TEXTURE_WRAP_MASK;
     t.is_data = false;
     t.alpha = (lane_uint)VXL_ALPHA_OPAQUE;
-    if (VXL_TEXTURE_ALPHA) t.alpha = LANES_GATHER_UINT(textures, place + 3u) & LANES_AS_UINT(wears);
-    t.first = place + (uint)VXL_TEXTURE_HEAD;
+    if (VXL_TEXTURE_ALPHA)
+        t.alpha = LANES_GATHER_UINT(textures, first_word + 3u) & LANES_AS_UINT(wears);
+    t.first = first_word + (uint)VXL_TEXTURE_HEAD;
     return t;
 }
 
@@ -69,16 +70,17 @@ static inline void go_to_level(TextureLevel* t, lane_int level) {
 
 /// Maps a coordinate, in texture widths, to where texels are: 0..1, or 0..2 where every other copy
 /// is mirrored.
-static inline lane_float place_of_texels(lane_float at, lane_uint wrap) {
+static inline lane_float texel_coordinate(lane_float at, lane_uint wrap) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const lane_int mirrors = LANE_MASK(wrap == VXL_TEXTURE_WRAP_MIRROR);
     const lane_float period = LANES_SELECT(mirrors, one * 2.0f, one);
     const lane_float inverse = LANES_SELECT(mirrors, one * 0.5f, one);
-    lane_float place = at - period * floor(at * inverse);
+    lane_float coordinate = at - period * floor(at * inverse);
     const lane_int clamps = LANE_MASK(wrap == VXL_TEXTURE_WRAP_CLAMP);
-    place = LANES_SELECT(clamps, clamp(at, 0.0f, 1.0f), place);
+    coordinate = LANES_SELECT(clamps, clamp(at, 0.0f, 1.0f), coordinate);
     // Rounding may reach the end, and NaN has no position.
-    return LANES_SELECT(LANE_MASK(place >= 0.0f) & LANE_MASK(place <= period), place, zero);
+    return LANES_SELECT(LANE_MASK(coordinate >= 0.0f) & LANE_MASK(coordinate <= period), coordinate,
+                        zero);
 }
 
 /// The texel for an index from -1 to `size` or, for mirrored textures, to twice the size.
@@ -116,8 +118,8 @@ static inline void add_texel(const TextureLevel* t, lane_int x, lane_int y, lane
 /// if its alpha reaches the minimum, and otherwise not at all.
 static inline void add_texture(const TextureLevel* t, lane_float u, lane_float v, lane_float weight,
                                lane_float* sum) {
-    const lane_float x = fma(place_of_texels(u, t->wrap_u), LANES_FLOAT(t->width), -0.5f);
-    const lane_float y = fma(place_of_texels(v, t->wrap_v), LANES_FLOAT(t->height), -0.5f);
+    const lane_float x = fma(texel_coordinate(u, t->wrap_u), LANES_FLOAT(t->width), -0.5f);
+    const lane_float y = fma(texel_coordinate(v, t->wrap_v), LANES_FLOAT(t->height), -0.5f);
     const lane_float low_x = floor(x), low_y = floor(y);
     const lane_float part_x = x - low_x, part_y = y - low_y;
     const lane_int from_x = LANES_INT(low_x), from_y = LANES_INT(low_y);
@@ -150,12 +152,12 @@ static inline lane_int floor_log2(lane_float v) {
     return (LANES_AS_INT(from_one) >> 23) - 127;
 }
 
-/// Sets `mean` to the mean of the textures that begin at `place` over `area`, as texture_mean does.
-/// With `is_data`, the channels are numbers instead of a colour in sRGB.
-static inline void mean_over(global const uint* restrict textures, lane_uint place,
+/// Sets `mean` to the mean of the textures that begin at `first_word` over `area`, as texture_mean
+/// does. With `is_data`, the channels are numbers instead of a colour in sRGB.
+static inline void mean_over(global const uint* restrict textures, lane_uint first_word,
                              const TextureArea* area, lane_int wears, bool is_data,
                              lane_float* mean) {
-    TextureLevel t = first_level(textures, place, wears);
+    TextureLevel t = first_level(textures, first_word, wears);
     t.is_data = is_data;
     const lane_float w = LANES_FLOAT(t.width), h = LANES_FLOAT(t.height);
     lane_float length[2];
@@ -209,12 +211,12 @@ static inline void mean_over(global const uint* restrict textures, lane_uint pla
     mean[3] = LANES_SELECT(LANE_MASK(mean[3] > 0.99999f), (lane_float)1.0f, mean[3]);
 }
 
-/// Sets `mean` to the mean colour of the textures that begin at `place` over `area`. Where alpha
-/// counts, mean[3] is the share of the area that they cover, and the colour is that of the covered
-/// part. `wears` is the mask of lanes with a texture.
-static inline void texture_mean(global const uint* restrict textures, lane_uint place,
+/// Sets `mean` to the mean colour of the textures that begin at `first_word` over `area`. Where
+/// alpha counts, mean[3] is the share of the area that they cover, and the colour is that of the
+/// covered part. `wears` is the mask of lanes with a texture.
+static inline void texture_mean(global const uint* restrict textures, lane_uint first_word,
                                 const TextureArea* area, lane_int wears, lane_float* mean) {
-    mean_over(textures, place, area, wears, false, mean);
+    mean_over(textures, first_word, area, wears, false, mean);
 }
 
 #endif

@@ -76,13 +76,15 @@ static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
 }
 
 /// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_min, or at it where
-/// `at_least` is set, that are closer than *t replace it. Rays from `within` the triangle's object
-/// meet only its back, because the neighbour across an edge at which they entered has its front
-/// towards them. Rays from `outside` meet only its front. `front` is set where they meet its front.
-static inline lane_int hit_triangle(const PyramidView* p, lane_float t_min, lane_int at_least,
-                                    global const float* triangles, lane_uint number, const Walk* w,
-                                    const RayShear* s, lane_int within, lane_int outside,
-                                    lane_int tested, lane_float* t, lane_int* front) {
+/// `counts_at_first` is set, that are closer than *t replace it. Rays from `within` the triangle's
+/// object meet only its back, because the neighbour across an edge at which they entered has its
+/// front towards them. Rays from `outside` meet only its front. `front` is set where they meet its
+/// front.
+static inline lane_int hit_triangle(const PyramidView* p, lane_float t_min,
+                                    lane_int counts_at_first, global const float* triangles,
+                                    lane_uint number, const Walk* w, const RayShear* s,
+                                    lane_int within, lane_int outside, lane_int tested,
+                                    lane_float* t, lane_int* front) {
     const lane_uint first = number * 9u;
     const ShearedCorner a = shear_corner(triangles, first, w, s);
     const ShearedCorner b = shear_corner(triangles, first + 3u, w, s);
@@ -102,7 +104,8 @@ static inline lane_int hit_triangle(const PyramidView* p, lane_float t_min, lane
     const lane_float weighted = fma(u, a.z, fma(v, b.z, e * c.z));
     const lane_float at =
         exact_divide(weighted, LANES_SELECT(solid, determinant, (lane_float)1.0f));
-    const lane_int closer = solid & (LANE_MASK(at > t_min) | (at_least & LANE_MASK(at == t_min))) &
+    const lane_int closer = solid &
+                            (LANE_MASK(at > t_min) | (counts_at_first & LANE_MASK(at == t_min))) &
                             LANE_MASK(at < *t) & is_in_world(p, w, at);
     *t = LANES_SELECT(closer, at, *t);
     return closer;

@@ -28,7 +28,7 @@ typedef struct {
 typedef struct {
     lane_float density;
     lane_int log2_size;  // of the aligned cube of cells around it that has one density
-    lane_uint place;     // index of the density among the values
+    lane_uint index;     // index of the density among the values
 } DensityCell;
 
 /// The density at voxel (x,y,z); lanes that are not `active` read something harmless.
@@ -41,10 +41,10 @@ static inline DensityCell look_up_density(const DensityView* d, lane_int x, lane
     const lane_uint word = LANES_GATHER_UINT(d->bricks, brick);
     const lane_int alike = LANE_MASK(LANES_AS_INT(word) < 0);
     const lane_uint cell = LANES_AS_UINT((cx & 15) | ((cy & 15) << 4) | ((cz & 15) << 8));
-    const lane_uint place = LANES_SELECT(alike, word & VXL_DENSITY_SLOT, (word << 12) | cell);
+    const lane_uint index = LANES_SELECT(alike, word & VXL_DENSITY_SLOT, (word << 12) | cell);
     DensityCell result;
-    result.density = LANES_GATHER_FLOAT(d->values, place);
-    result.place = place;
+    result.density = LANES_GATHER_FLOAT(d->values, index);
+    result.index = index;
     result.log2_size = LANES_AS_INT((word >> VXL_DENSITY_SIZE_SHIFT) & 31u) & alike;
     return result;
 }

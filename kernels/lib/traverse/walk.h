@@ -99,7 +99,7 @@ static inline AxisCrossing axis_crossing(lane_int exit_plane, lane_int nearest_p
 }
 
 /// The cell coordinate behind `plane` if the axis has crossed it, or before it if not.
-static inline lane_int cell_beside(lane_int plane, lane_int crossed, lane_int positive) {
+static inline lane_int cell_next_to(lane_int plane, lane_int crossed, lane_int positive) {
     return plane + (crossed ^ positive);
 }
 
@@ -129,9 +129,9 @@ static inline void settle_cell(const Walk* w, const AxisCrossing* x, const AxisC
     const lane_int crossed_x = LANE_LONG_MASK(ax <= bx);
     const lane_int crossed_y = LANE_LONG_MASK(ay < by) | (LANE_LONG_MASK(ay == by) & ~c->ex);
     const lane_int crossed_z = LANE_LONG_MASK(az < bz) | (LANE_LONG_MASK(az == bz) & ez);
-    c->x = LANES_SELECT(w->mx, cell_beside(c->rx, crossed_x, w->px), w->x);
-    c->y = LANES_SELECT(w->my, cell_beside(c->ry, crossed_y, w->py), w->y);
-    c->z = LANES_SELECT(w->mz, cell_beside(c->rz, crossed_z, w->pz), w->z);
+    c->x = LANES_SELECT(w->mx, cell_next_to(c->rx, crossed_x, w->px), w->x);
+    c->y = LANES_SELECT(w->my, cell_next_to(c->ry, crossed_y, w->py), w->y);
+    c->z = LANES_SELECT(w->mz, cell_next_to(c->rz, crossed_z, w->pz), w->z);
 }
 
 /// Decides a crossing in exact arithmetic, for all lanes.

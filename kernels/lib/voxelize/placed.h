@@ -141,15 +141,15 @@ static inline bool is_inside_field(const PlacedObject* object, global const shor
                     ((node.z & 15) << 8)] < 0;
 }
 
-// True if voxel `v` of the object is set. Sets `place` to its index in the bricks' values, or to -1
+// True if voxel `v` of the object is set. Sets `index` to its index in the bricks' values, or to -1
 // for a voxel of a brick that isn't stored.
 static inline bool is_occupied(const PlacedObject* object, global const ulong* occupancy, int4 v,
-                               long* place) {
+                               long* index) {
     const uint slot = brick_slot(object->slots, object->bricks, v >> 4);
-    *place = -1;
+    *index = -1;
     if (!brick_is_stored(slot)) return slot == VXL_BRICK_INSIDE;
     const int4 in = v & 15;
-    *place = (long)slot * VXL_BRICK_VOXELS + (in.x | in.y << 4 | in.z << 8);
+    *index = (long)slot * VXL_BRICK_VOXELS + (in.x | in.y << 4 | in.z << 8);
     const ulong mask =
         occupancy[(size_t)slot * 64 + ((in.x >> 2) | (in.y & 12) | (in.z & 12) << 2)];
     return mask >> ((in.x & 3) | (in.y & 3) << 2 | (in.z & 3) << 4) & 1;
@@ -180,7 +180,7 @@ static inline CellBox cells_around(const PlacedObject* object, FixedPoint p) {
 // Finds the first occupied voxel in the box, x fastest, and its index as in is_occupied. Skips
 // empty bricks and leaves.
 static inline bool find_in_box(const PlacedObject* object, global const ulong* occupancy,
-                               global const ulong* near, CellBox box, long* place) {
+                               global const ulong* near, CellBox box, long* index) {
     const int4 first = max(box.first, (int4)(0)), last = min(box.last, object->bricks * 16 - 1);
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; ++y)
@@ -191,7 +191,7 @@ static inline bool find_in_box(const PlacedObject* object, global const ulong* o
                     x |= 15;
                     continue;
                 }
-                if (is_occupied(object, occupancy, v, place)) return true;
+                if (is_occupied(object, occupancy, v, index)) return true;
                 const int leaf = (x >> 2 & 3) | (y & 12) | (z & 12) << 2;
                 if (!(near[slot] >> leaf & 1)) x |= 3;
             }

@@ -7,7 +7,7 @@
 
 /// Maps a coordinate, in texture widths, to where texels are: 0..1, or 0..2 where every other copy
 /// is mirrored.
-static inline float wrapped_place(float at, uint wrap) {
+static inline float wrapped_coordinate(float at, uint wrap) {
     if (wrap == VXL_TEXTURE_WRAP_CLAMP) return clamp(at, 0.0f, 1.0f);
     if (wrap == VXL_TEXTURE_WRAP_MIRROR) return at - 2.0f * floor(0.5f * at);
     return at - floor(at);
@@ -35,8 +35,8 @@ static inline float3 texture_color(uint4 texture, uint level, global const uint*
         size = max(size >> 1, (int2)(1));
     }
     const uint2 wrap = (uint2)(texture.w & 15u, texture.w >> VXL_TEXTURE_WRAP_V_SHIFT);
-    const float2 at = (float2)(wrapped_place(uv.x, wrap.x) * (float)size.x - 0.5f,
-                               wrapped_place(uv.y, wrap.y) * (float)size.y - 0.5f);
+    const float2 at = (float2)(wrapped_coordinate(uv.x, wrap.x) * (float)size.x - 0.5f,
+                               wrapped_coordinate(uv.y, wrap.y) * (float)size.y - 0.5f);
     const float2 low = floor(at), part = at - low;
     const int2 from = convert_int2(low);
     const int x0 = wrapped_texel(from.x, size.x, wrap.x);

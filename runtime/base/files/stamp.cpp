@@ -36,7 +36,7 @@ uint32_t crc_of(std::string_view bytes) {
 }
 
 /// The position of a stamp's check, and the number of bytes from there on that no hash covers.
-struct StampPlace {
+struct StampOffsets {
     size_t hash = 0, check = 0;
     size_t blank = kCheckDigits;
     std::optional<size_t> chunk;  ///< in a PNG: start of the type of the text's chunk
@@ -46,7 +46,7 @@ bool is_hex(std::string_view text) {
     return text.find_first_not_of("0123456789abcdef") == text.npos;
 }
 
-std::optional<StampPlace> find_stamp(std::string_view header) {
+std::optional<StampOffsets> find_stamp(std::string_view header) {
     const size_t begin = header.find(kStampBegin);
     if (begin == header.npos || begin + kStampLength > header.size()) return {};
     const size_t hash = begin + kStampBegin.size(), middle = hash + kHashDigits;
@@ -54,13 +54,13 @@ std::optional<StampPlace> find_stamp(std::string_view header) {
     if (header.substr(middle, kStampMiddle.size()) != kStampMiddle ||
         !is_hex(header.substr(hash, kHashDigits)) || !is_hex(header.substr(check, kCheckDigits)))
         return {};
-    StampPlace place{hash, check, kCheckDigits, {}};
-    if (!header.starts_with(kPngStart)) return place;
+    StampOffsets offsets{hash, check, kCheckDigits, {}};
+    if (!header.starts_with(kPngStart)) return offsets;
     // The text is the end of its chunk, whose checksum of four bytes follows.
-    place.blank += 4;
-    place.chunk = header.rfind(kTextChunk, begin);
-    if (*place.chunk == header.npos || check + place.blank > header.size()) return {};
-    return place;
+    offsets.blank += 4;
+    offsets.chunk = header.rfind(kTextChunk, begin);
+    if (*offsets.chunk == header.npos || check + offsets.blank > header.size()) return {};
+    return offsets;
 }
 
 /// The hash of bytes that arrive one after another, with zeros in the place of some.
@@ -104,8 +104,8 @@ class StampReader {
 };
 
 /// The check of a file whose first bytes are `header`; empty when the rest can't be read.
-std::string check_of(std::string header, const StampPlace& place, StampReader& rest) {
-    std::memset(&header[place.check], 0, place.blank);
+std::string check_of(std::string header, const StampOffsets& offsets, StampReader& rest) {
+    std::memset(&header[offsets.check], 0, offsets.blank);
     StampHasher hasher;
     hasher.add(header);
     std::string block;
@@ -117,11 +117,12 @@ std::string check_of(std::string header, const StampPlace& place, StampReader& r
 }
 
 /// Puts the check, and the checksum of a PNG's chunk, into the header.
-void put_check(std::string& header, const StampPlace& place, const std::string& digits) {
-    header.replace(place.check, kCheckDigits, digits);
-    if (!place.chunk) return;
-    const size_t end = place.check + kCheckDigits;
-    const uint32_t sum = crc_of(std::string_view(header).substr(*place.chunk, end - *place.chunk));
+void put_check(std::string& header, const StampOffsets& offsets, const std::string& digits) {
+    header.replace(offsets.check, kCheckDigits, digits);
+    if (!offsets.chunk) return;
+    const size_t end = offsets.check + kCheckDigits;
+    const uint32_t sum =
+        crc_of(std::string_view(header).substr(*offsets.chunk, end - *offsets.chunk));
     for (size_t i = 0; i < 4; ++i) header[end + i] = char(sum >> (24 - 8 * i));
 }
 
@@ -135,7 +136,7 @@ class StampedFile {
         struct stat status {};
         if (descriptor_ >= 0 && fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) &&
             rest_.read(header_, kStampHeader))
-            place_ = find_stamp(header_);
+            offsets_ = find_stamp(header_);
     }
     ~StampedFile() {
         if (descriptor_ >= 0) close(descriptor_);
@@ -144,15 +145,15 @@ class StampedFile {
     StampedFile& operator=(const StampedFile&) = delete;
 
     bool is_missing() const { return is_missing_; }
-    bool has_stamp() const { return place_.has_value(); }
+    bool has_stamp() const { return offsets_.has_value(); }
     std::string_view hash() const {
-        return std::string_view(header_).substr(place_->hash, kHashDigits);
+        return std::string_view(header_).substr(offsets_->hash, kHashDigits);
     }
     /// Reads all of the file, once.
     bool is_whole() {
         const std::string_view check =
-            std::string_view(header_).substr(place_->check, kCheckDigits);
-        return check_of(header_, *place_, rest_) == check;
+            std::string_view(header_).substr(offsets_->check, kCheckDigits);
+        return check_of(header_, *offsets_, rest_) == check;
     }
 
   private:
@@ -160,7 +161,7 @@ class StampedFile {
     bool is_missing_;
     StampReader rest_;
     std::string header_;
-    std::optional<StampPlace> place_;
+    std::optional<StampOffsets> offsets_;
 };
 
 }  // namespace
@@ -169,20 +170,20 @@ std::string stamp_of(std::string_view hash) {
     return fmt::format("{}{}{}{:016x}", kStampBegin, hash, kStampMiddle, 0);
 }
 
-std::optional<size_t> stamp_check_place(std::string_view header) {
-    const std::optional<StampPlace> place = find_stamp(header.substr(0, kStampHeader));
-    return place ? std::optional(place->check) : std::nullopt;
+std::optional<size_t> stamp_check_offset(std::string_view header) {
+    const std::optional<StampOffsets> offsets = find_stamp(header.substr(0, kStampHeader));
+    return offsets ? std::optional(offsets->check) : std::nullopt;
 }
 
 bool seal(std::string& bytes) {
-    const std::optional<StampPlace> place =
+    const std::optional<StampOffsets> offsets =
         find_stamp(std::string_view(bytes).substr(0, kStampHeader));
-    if (!place) return false;
+    if (!offsets) return false;
     std::string blank = bytes;
-    std::memset(&blank[place->check], 0, place->blank);
+    std::memset(&blank[offsets->check], 0, offsets->blank);
     StampHasher hasher;
     hasher.add(blank);
-    put_check(bytes, *place, hasher.digits());
+    put_check(bytes, *offsets, hasher.digits());
     return true;
 }
 
@@ -190,13 +191,13 @@ bool seal(int descriptor) noexcept try {
     StampReader reader(descriptor);
     std::string header;
     if (!reader.read(header, kStampHeader)) return false;
-    const std::optional<StampPlace> place = find_stamp(header);
-    if (!place) return false;
-    const std::string digits = check_of(header, *place, reader);
+    const std::optional<StampOffsets> offsets = find_stamp(header);
+    if (!offsets) return false;
+    const std::string digits = check_of(header, *offsets, reader);
     if (digits.empty()) return false;
-    put_check(header, *place, digits);
-    return pwrite(descriptor, &header[place->check], place->blank, off_t(place->check)) ==
-           ssize_t(place->blank);
+    put_check(header, *offsets, digits);
+    return pwrite(descriptor, &header[offsets->check], offsets->blank, off_t(offsets->check)) ==
+           ssize_t(offsets->blank);
 } catch (const std::exception&) {
     return false;
 }

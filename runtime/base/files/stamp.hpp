@@ -27,7 +27,7 @@ inline constexpr size_t kStampCheckDigits = 16;
 
 /// The position of the stamp's check in a file's first bytes; empty if there is none. Other
 /// checksums in the same file leave the check out.
-std::optional<size_t> stamp_check_place(std::string_view header);
+std::optional<size_t> stamp_check_offset(std::string_view header);
 
 /// Fills in the check of the stamp in a file's bytes, if there is one near its start: a hash of all
 /// other bytes. The bytes may be those of any format that has the text as it is; in PNG files the

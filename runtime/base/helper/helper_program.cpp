@@ -14,9 +14,9 @@ namespace {
 
 /// The folders of RPATH, RUNPATH and the system, in their order.
 std::vector<std::filesystem::path> module_folders() {
-    Dl_info place{};
+    Dl_info info{};
     link_map* object = nullptr;  // which is a handle, too
-    if (dladdr1(reinterpret_cast<const void*>(&helper_program), &place,
+    if (dladdr1(reinterpret_cast<const void*>(&helper_program), &info,
                 reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) == 0)
         return {};
     Dl_serinfo size{};

@@ -37,7 +37,7 @@ std::vector<SharpEdge> sharp_edges(const MeshEdges& edges, double reach) {
         const EdgeTurn around = is_sharp ? EdgeTurn{0, 1} : turn_around(edges, edge, reach);
         if (!(around.width <= reach)) continue;
         const std::array ends = {edges.begin(edge.a), edges.begin(next_side(edge.a))};
-        const double length = glm::distance(edges.place(ends[0]), edges.place(ends[1]));
+        const double length = glm::distance(edges.position(ends[0]), edges.position(ends[1]));
         sharp.push_back({{std::min(ends[0], ends[1]), std::max(ends[0], ends[1])}, length, around});
     }
     return sharp;
@@ -71,11 +71,11 @@ class Creases {
         Crease sum;
         sum.add(edges_[edge]);
         for (const uint32_t end : edges_[edge].ends) {
-            uint32_t last = edge, place = end;
-            while (const auto next = next_of(last, place)) {
+            uint32_t last = edge, vertex = end;
+            while (const auto next = next_of(last, vertex)) {
                 is_used_[*next] = true;
                 sum.add(edges_[*next]);
-                place = other_end(*next, place);
+                vertex = other_end(*next, vertex);
                 last = *next;
             }
         }
@@ -83,26 +83,26 @@ class Creases {
     }
 
   private:
-    uint32_t other_end(uint32_t edge, uint32_t place) const {
+    uint32_t other_end(uint32_t edge, uint32_t vertex) const {
         const auto& ends = edges_[edge].ends;
-        return ends[0] == place ? ends[1] : ends[0];
+        return ends[0] == vertex ? ends[1] : ends[0];
     }
 
     glm::dvec3 direction(uint32_t from, uint32_t to) const {
-        const glm::dvec3 way = mesh_.place(to) - mesh_.place(from);
+        const glm::dvec3 way = mesh_.position(to) - mesh_.position(from);
         return way / glm::length(way);
     }
 
-    /// The unused edge at position `place` that continues `edge` with the smallest turn.
-    std::optional<uint32_t> next_of(uint32_t edge, uint32_t place) const {
-        const glm::dvec3 onward = direction(other_end(edge, place), place);
+    /// The unused edge at position `vertex` that continues `edge` with the smallest turn.
+    std::optional<uint32_t> next_of(uint32_t edge, uint32_t vertex) const {
+        const glm::dvec3 onward = direction(other_end(edge, vertex), vertex);
         std::optional<uint32_t> best;
         double straightest = kStraight;
-        auto here = std::ranges::lower_bound(at_, std::pair(place, 0u));
-        for (; here != at_.end() && here->first == place; ++here) {
+        auto here = std::ranges::lower_bound(at_, std::pair(vertex, 0u));
+        for (; here != at_.end() && here->first == vertex; ++here) {
             const uint32_t candidate = here->second;
             if (is_used_[candidate]) continue;
-            const double cosine = glm::dot(onward, direction(place, other_end(candidate, place)));
+            const double cosine = glm::dot(onward, direction(vertex, other_end(candidate, vertex)));
             if (cosine < straightest) continue;
             straightest = cosine;
             best = candidate;

@@ -13,7 +13,7 @@ namespace voxelume {
 namespace {
 
 /// For each position the index of the first one that is equal to it.
-std::vector<uint32_t> places_of(const Mesh& mesh) {
+std::vector<uint32_t> find_first_equal(const Mesh& mesh) {
     std::vector<uint32_t> order(mesh.positions.size());
     for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
     const auto point = [&](uint32_t i) {
@@ -21,11 +21,11 @@ std::vector<uint32_t> places_of(const Mesh& mesh) {
         return std::array{p.x, p.y, p.z};
     };
     std::ranges::sort(order, {}, point);
-    std::vector<uint32_t> place(order.size());
+    std::vector<uint32_t> first(order.size());
     for (size_t i = 0; i < order.size(); ++i)
-        place[order[i]] =
-            i > 0 && point(order[i]) == point(order[i - 1]) ? place[order[i - 1]] : order[i];
-    return place;
+        first[order[i]] =
+            i > 0 && point(order[i]) == point(order[i - 1]) ? first[order[i - 1]] : order[i];
+    return first;
 }
 
 /// One side of a triangle.
@@ -38,13 +38,14 @@ struct Side {
 };
 
 /// The sides of all triangles, those of one edge next to each other.
-std::vector<Side> sorted_sides(const Mesh& mesh, const std::vector<uint32_t>& places) {
+std::vector<Side> sorted_sides(const Mesh& mesh, const std::vector<uint32_t>& first_equal) {
     std::vector<Side> sides;
     sides.reserve(mesh.triangles.size() * 3);
     for (uint32_t number = 0; number < mesh.triangles.size(); ++number) {
         const glm::uvec3& triangle = mesh.triangles[number];
         for (int corner = 0; corner < 3; ++corner) {
-            const uint32_t a = places[triangle[corner]], b = places[triangle[(corner + 1) % 3]];
+            const uint32_t a = first_equal[triangle[corner]],
+                           b = first_equal[triangle[(corner + 1) % 3]];
             if (a != b)
                 sides.push_back(
                     {std::min(a, b), std::max(a, b), a < b, number * 3 + uint32_t(corner)});
@@ -92,10 +93,10 @@ void leave_distinct(const std::vector<glm::dvec3>& normals, std::vector<Side>& s
 
 MeshEdges::MeshEdges(const Mesh& mesh)
     : mesh_(mesh),
-      places_(places_of(mesh)),
+      first_equal_(find_first_equal(mesh)),
       normals_(normals_of(mesh)),
       across_(mesh.triangles.size() * 3, kNoSide) {
-    const std::vector<Side> sides = sorted_sides(mesh, places_);
+    const std::vector<Side> sides = sorted_sides(mesh, first_equal_);
     edges_.reserve(sides.size() / 2);
     std::vector<Side> here;
     for (size_t first = 0, end = 0; first < sides.size(); first = end) {

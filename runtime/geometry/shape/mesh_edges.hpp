@@ -40,9 +40,9 @@ class MeshEdges {
 
     /// The index of the first position that is equal to the one at which a side begins.
     uint32_t begin(uint32_t side) const {
-        return places_[mesh_.triangles[side / 3][int(side % 3)]];
+        return first_equal_[mesh_.triangles[side / 3][int(side % 3)]];
     }
-    glm::dvec3 place(uint32_t number) const { return glm::dvec3(mesh_.positions[number]); }
+    glm::dvec3 position(uint32_t number) const { return glm::dvec3(mesh_.positions[number]); }
 
     /// The position of the vertex at which a triangle's side starts.
     glm::dvec3 start(uint32_t side) const {
@@ -57,7 +57,7 @@ class MeshEdges {
 
   private:
     const Mesh& mesh_;
-    std::vector<uint32_t> places_;  ///< for each position
+    std::vector<uint32_t> first_equal_;  ///< for each position
     std::vector<glm::dvec3> normals_;
     std::vector<MeshEdge> edges_;
     std::vector<uint32_t> across_;

@@ -19,7 +19,7 @@ Solid union_of(Solid a, Solid b) {
 /// Joins those of a term's shapes that have faces in one plane.
 void join_flush_shapes(SolidTerm& term) {
     // The points outside of several shapes at once are those outside of their union.
-    const bool of_complements = term.link == FieldLink::largest;
+    const bool of_complements = term.link == FieldLink::maximum;
     const auto is_open = [&](const SolidTerm& inner) {
         return inner.is_shape() && inner.is_complement == of_complements;
     };
@@ -45,7 +45,7 @@ SolidTerm term_of(const Solid& solid, const glm::dmat4& frame_from_parent, bool 
     term.whole.parent_from_solid = map;
     if (!is_combination(solid.kind)) return term;
     const bool is_union = (solid.kind == SolidKind::union_of) != is_complement;
-    term.link = is_union ? FieldLink::least : FieldLink::largest;
+    term.link = is_union ? FieldLink::minimum : FieldLink::maximum;
     for (size_t i = 0; i < solid.parts.size(); ++i) {
         const bool is_taken_away = solid.kind == SolidKind::difference_of && i > 0;
         SolidTerm inner = term_of(solid.parts[i], map, is_complement != is_taken_away);

@@ -9,7 +9,8 @@
 
 namespace voxelume {
 
-/// A shape, or the union (FieldLink::least) or intersection (FieldLink::largest) of several terms.
+/// A shape, or the union (FieldLink::minimum) or intersection (FieldLink::maximum) of several
+/// terms.
 struct SolidTerm {
     Solid whole;                 ///< in the space of the solid's parent
     bool is_complement = false;  ///< the term is all that lies outside of `whole`

@@ -50,8 +50,9 @@ void transpose(Rows& rows) {
 }
 
 /// Writes a brick without missing cells. Axis `side` of the file runs along the model's rows.
-void write_whole(const ByteBrick& brick, const PlacesInBrick& places, size_t side, uint8_t* codes) {
-    const bool is_mirrored = places[side][0] > places[side][1];
+void write_whole(const ByteBrick& brick, const OffsetsInBrick& offsets, size_t side,
+                 uint8_t* codes) {
+    const bool is_mirrored = offsets[side][0] > offsets[side][1];
     const size_t other = side == 1 ? 2 : 1;
     for (int j = 0; j < kBrickSize; ++j) {
         Rows rows;
@@ -64,7 +65,7 @@ void write_whole(const ByteBrick& brick, const PlacesInBrick& places, size_t sid
             if (side == 0 && is_mirrored)
                 row = __builtin_shufflevector(row, row, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3,
                                               2, 1, 0);
-            std::memcpy(codes + (places[other][size_t(j)] | places[side == 0 ? 2 : 0][k]), &row,
+            std::memcpy(codes + (offsets[other][size_t(j)] | offsets[side == 0 ? 2 : 0][k]), &row,
                         sizeof row);
         }
     }
@@ -72,23 +73,23 @@ void write_whole(const ByteBrick& brick, const PlacesInBrick& places, size_t sid
 
 }  // namespace
 
-void write_codes(const ByteBrick& brick, const PlacesInBrick& places, uint8_t* codes) {
+void write_codes(const ByteBrick& brick, const OffsetsInBrick& offsets, uint8_t* codes) {
     if (is_uniform(brick)) {
         std::memset(codes, *brick.first, kVoxelsPerBrick);
         return;
     }
     if (brick.count == glm::ivec3(kBrickSize)) {
         size_t side = 0;
-        while (std::max(places[side][0], places[side][1]) >= uint32_t(kBrickSize)) ++side;
-        write_whole(brick, places, side, codes);
+        while (std::max(offsets[side][0], offsets[side][1]) >= uint32_t(kBrickSize)) ++side;
+        write_whole(brick, offsets, side, codes);
         return;
     }
     std::memset(codes, 0, kVoxelsPerBrick);
     for (size_t z = 0; z < size_t(brick.count.z); ++z)
         for (size_t y = 0; y < size_t(brick.count.y); ++y) {
             const uint8_t* const row = row_of(brick, int(y), int(z));
-            uint8_t* const to = codes + (places[2][z] | places[1][y]);
-            for (size_t x = 0; x < size_t(brick.count.x); ++x) to[places[0][x]] = row[x];
+            uint8_t* const to = codes + (offsets[2][z] | offsets[1][y]);
+            for (size_t x = 0; x < size_t(brick.count.x); ++x) to[offsets[0][x]] = row[x];
         }
 }
 

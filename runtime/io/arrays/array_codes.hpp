@@ -17,9 +17,9 @@ struct ByteBrick {
 };
 
 /// The part that a cell's coordinate along each of the file's axes adds to its index in a brick.
-using PlacesInBrick = std::array<std::array<uint32_t, 16>, 3>;
+using OffsetsInBrick = std::array<std::array<uint32_t, 16>, 3>;
 
 /// Writes 4096 bytes, those without a cell as 0.
-void write_codes(const ByteBrick& brick, const PlacesInBrick& places, uint8_t* codes);
+void write_codes(const ByteBrick& brick, const OffsetsInBrick& offsets, uint8_t* codes);
 
 }  // namespace voxelume

@@ -44,7 +44,7 @@ class ArrayCubes {
                 const size_t at = map.is_mirrored ? 15 - cell : cell;
                 leaf_[i][cell] = uint32_t(at / 4 << 2 * map.axis);
                 bit_[i][cell] = uint32_t(at % 4 << 2 * map.axis);
-                place_[i][cell] = uint32_t(at << 4 * map.axis);
+                index_[i][cell] = uint32_t(at << 4 * map.axis);
             }
             if (i == 0) make_spread(map.axis);
         }
@@ -216,7 +216,7 @@ class ArrayCubes {
         const size_t width = size_t(array_.counts.x), height = size_t(array_.counts.y);
         const auto* const first = reinterpret_cast<const uint8_t*>(slabs.values()) +
                                   size_t(low.y) * width + size_t(low.x);
-        write_codes({first, width, width * height, count}, place_, codes);
+        write_codes({first, width, width * height, count}, index_, codes);
     }
 
     bool color_brick(const ArraySlabs& slabs, const glm::ivec3& brick, int layers, uint32_t slot,
@@ -233,15 +233,15 @@ class ArrayCubes {
                 for (int y = low.y; y < high.y; ++y)
                     for (int x = low.x; x < high.x; ++x) {
                         const size_t cell = (size_t(z) * height + size_t(y)) * width + size_t(x);
-                        const uint32_t place = place_[2][size_t(z)] | place_[1][size_t(y - low.y)] |
-                                               place_[0][size_t(x - low.x)];
+                        const uint32_t index = index_[2][size_t(z)] | index_[1][size_t(y - low.y)] |
+                                               index_[0][size_t(x - low.x)];
                         const bool is_last = !array_.is_color() && values[cell] == last;
                         const uint32_t color = is_last ? last_color : color_of(slabs, values, cell);
                         if (!array_.is_color()) last = values[cell];
                         last_color = color;
                         // Cells without a voxel have no visible colour.
                         if (color >= kClear) continue;
-                        colors[place] = color;
+                        colors[index] = color;
                         transparent |= color >> VXL_TRANSPARENCY_SHIFT != 0;
                     }
         });
@@ -283,7 +283,7 @@ class ArrayCubes {
     int first_brick_ = 0;
     std::array<int, 3> brick_stride_{};
     // Tables by the file's axis and the cell in a brick.
-    std::array<std::array<uint32_t, 16>, 3> leaf_{}, bit_{}, place_{};
+    std::array<std::array<uint32_t, 16>, 3> leaf_{}, bit_{}, index_{};
     std::array<uint64_t, 16> spread_{};
     std::array<uint32_t, 256> byte_colors_{};
     std::vector<Bricks> parts_;

@@ -105,11 +105,11 @@ class ArrayDensity : public DensityField {
                        std::span<float> values) const override {
         const glm::dvec3 origin(cell_from_world_ * glm::dvec4(first, 1));
         const glm::dmat3 turn(cell_from_world_);
-        size_t place = 0;
+        size_t index = 0;
         for (int k = 0; k < count.z; ++k)
             for (int j = 0; j < count.y; ++j)
                 for (int i = 0; i < count.x; ++i)
-                    values[place++] = at(origin + turn * (step * glm::dvec3(i, j, k)));
+                    values[index++] = at(origin + turn * (step * glm::dvec3(i, j, k)));
     }
 
   private:
@@ -177,14 +177,14 @@ class ArrayDensity : public DensityField {
     void find_extremes() {
         blocks_ = (size_ + kBlockEdge - 1) / kBlockEdge;
         extremes_.resize(size_t(blocks_.x) * size_t(blocks_.y) * size_t(blocks_.z));
-        size_t place = 0;
+        size_t index = 0;
         for (int z = 0; z < size_.z; ++z)
             for (int y = 0; y < size_.y; ++y) {
                 const size_t row =
                     (size_t(z / kBlockEdge) * size_t(blocks_.y) + size_t(y / kBlockEdge)) *
                     size_t(blocks_.x);
                 for (int x = 0; x < size_.x; ++x)
-                    extremes_[row + size_t(x / kBlockEdge)].add(values_[place++]);
+                    extremes_[row + size_t(x / kBlockEdge)].add(values_[index++]);
             }
     }
 

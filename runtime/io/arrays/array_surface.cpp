@@ -24,7 +24,7 @@ constexpr uint64_t kMaxCells = uint64_t{1} << 30;
 constexpr uint64_t kMaxCompressedCells = uint64_t{1} << 28;  // a few bytes may stand for many cells
 
 /// The model's positions of the cells along one of the file's axes.
-struct AxisPlaces {
+struct AxisIndices {
     int axis = 0;  ///< axis of the model
     bool is_mirrored = false;
     std::vector<int> node;      ///< node of the model, by the file's cell
@@ -53,7 +53,7 @@ class ArraySurface {
         check_voxel_span(glm::dvec3(model_.frame.size), file_);
         model_.frame.voxel_edge = array.voxel_edge;
         model_.frame.origin = array.first_corner + array.voxel_edge * (0.5 - kPad);
-        for (int axis = 0; axis < 3; ++axis) make_places(axis);
+        for (int axis = 0; axis < 3; ++axis) make_axis_indices(axis);
     }
 
     VoxelModel read() {
@@ -72,19 +72,19 @@ class ArraySurface {
     }
 
   private:
-    void make_places(int axis) {
-        AxisPlaces& places = places_[size_t(array_.axis[axis])];
+    void make_axis_indices(int axis) {
+        AxisIndices& indices = axis_indices_[size_t(array_.axis[axis])];
         const int count = array_.counts[array_.axis[axis]];
         const glm::ivec3 bricks = model_.frame.bricks();
         const std::array<size_t, 3> stride = {1, size_t(bricks.x),
                                               size_t(bricks.x) * size_t(bricks.y)};
-        places.axis = axis;
-        places.is_mirrored = array_.sign[axis] < 0;
+        indices.axis = axis;
+        indices.is_mirrored = array_.sign[axis] < 0;
         for (int cell = 0; cell < count; ++cell) {
-            const int node = kPad + (places.is_mirrored ? count - 1 - cell : cell);
-            places.node.push_back(node);
-            places.brick.push_back(size_t(node / kBrickSize) * stride[size_t(axis)]);
-            places.cell.push_back(size_t(node % kBrickSize) << 4 * axis);
+            const int node = kPad + (indices.is_mirrored ? count - 1 - cell : cell);
+            indices.node.push_back(node);
+            indices.brick.push_back(size_t(node / kBrickSize) * stride[size_t(axis)]);
+            indices.cell.push_back(size_t(node % kBrickSize) << 4 * axis);
         }
     }
 
@@ -121,11 +121,11 @@ class ArraySurface {
         uint64_t* close = close_.row(y, z);
         sides_.pairs(0, y, z, pairs.data());
         for (size_t i = 0; i < pairs.size(); ++i)
-            close[i] = !places_[0].is_mirrored ? pairs[i]
-                       : i == 0                ? pairs[i] << 1
-                                               : pairs[i] << 1 | pairs[i - 1] >> 63;
+            close[i] = !axis_indices_[0].is_mirrored ? pairs[i]
+                       : i == 0                      ? pairs[i] << 1
+                                                     : pairs[i] << 1 | pairs[i - 1] >> 63;
         for (int axis = 1; axis < 3; ++axis) {
-            const int back = places_[size_t(axis)].is_mirrored ? 1 : 0;
+            const int back = axis_indices_[size_t(axis)].is_mirrored ? 1 : 0;
             const int from_y = axis == 1 ? y - back : y, from_z = axis == 2 ? z - back : z;
             if (!has_next(axis, axis == 1 ? from_y : from_z)) continue;
             sides_.pairs(axis, from_y, from_z, pairs.data());
@@ -155,9 +155,9 @@ class ArraySurface {
     /// Marks the bricks whose nodes lie near a cell at the surface.
     void mark(int x, int y, int z) {
         glm::ivec3 node;
-        node[places_[0].axis] = places_[0].node[size_t(x)];
-        node[places_[1].axis] = places_[1].node[size_t(y)];
-        node[places_[2].axis] = places_[2].node[size_t(z)];
+        node[axis_indices_[0].axis] = axis_indices_[0].node[size_t(x)];
+        node[axis_indices_[1].axis] = axis_indices_[1].node[size_t(y)];
+        node[axis_indices_[2].axis] = axis_indices_[2].node[size_t(z)];
         const glm::ivec3 low = glm::max(node - kReach, 0) / kBrickSize,
                          high = glm::min(node + 1 + kReach, model_.frame.size) / kBrickSize,
                          bricks = model_.frame.bricks();
@@ -172,7 +172,8 @@ class ArraySurface {
         const glm::dvec3 edge = model_.frame.voxel_edge;
         const glm::vec3 by_axis(std::min({edge.x, edge.y, edge.z}) / edge);
         glm::vec3 weight;
-        for (int axis = 0; axis < 3; ++axis) weight[axis] = by_axis[places_[size_t(axis)].axis];
+        for (int axis = 0; axis < 3; ++axis)
+            weight[axis] = by_axis[axis_indices_[size_t(axis)].axis];
         steepest_ = steepest_step(array_, file_, values_, sides_, weight);
     }
 
@@ -180,10 +181,10 @@ class ArraySurface {
     glm::ivec3 cell_at(const glm::ivec3& node) const {
         glm::ivec3 cell;
         for (int i = 0; i < 3; ++i) {
-            const AxisPlaces& places = places_[size_t(i)];
+            const AxisIndices& indices = axis_indices_[size_t(i)];
             const int count = array_.counts[i];
-            const int at = std::clamp(node[places.axis] - kPad, 0, count - 1);
-            cell[i] = places.is_mirrored ? count - 1 - at : at;
+            const int at = std::clamp(node[indices.axis] - kPad, 0, count - 1);
+            cell[i] = indices.is_mirrored ? count - 1 - at : at;
         }
         return cell;
     }
@@ -211,7 +212,7 @@ class ArraySurface {
         reserve_in_huge_pages(model_.distance, model_.coordinates.size() * kVoxelsPerBrick);
         model_.distance.resize(model_.coordinates.size() * kVoxelsPerBrick);
         const ArrayUnits units(values_, steepest_, array_.type);
-        const std::vector<CellRun> runs = runs_of(places_[0].brick);
+        const std::vector<CellRun> runs = runs_of(axis_indices_[0].brick);
         for_layer_ranges(array_, 1, [&](int first, int end) {
             ArraySlabs slabs(array_, file_, 1, first, end);
             while (slabs.next() > 0)
@@ -231,19 +232,19 @@ class ArraySurface {
     /// values are there.
     template <class Value>
     void fill_run(const Value* row, const CellRun& run, int y, int z, const ArrayUnits& units) {
-        const AxisPlaces &y_places = places_[1], &z_places = places_[2];
-        const size_t number = run.brick + y_places.brick[size_t(y)] + z_places.brick[size_t(z)];
+        const AxisIndices &y_indices = axis_indices_[1], &z_indices = axis_indices_[2];
+        const size_t number = run.brick + y_indices.brick[size_t(y)] + z_indices.brick[size_t(z)];
         if (!is_near_[number]) return;
         int16_t* const out = model_.distance.data() + model_.slots[number] * kVoxelsPerBrick +
-                             y_places.cell[size_t(y)] + z_places.cell[size_t(z)];
+                             y_indices.cell[size_t(y)] + z_indices.cell[size_t(z)];
         const uint32_t close = close_.from(run.first, y, z),
                        inside = sides_.inside.from(run.first, y, z);
         for (int x = run.first; x < run.end; ++x) {
             const bool is_close = close >> (x - run.first) & 1,
                        is_inside = inside >> (x - run.first) & 1;
-            out[places_[0].cell[size_t(x)]] = is_close    ? units(row[x])
-                                              : is_inside ? int16_t(-kMaxUnits)
-                                                          : kMaxUnits;
+            out[axis_indices_[0].cell[size_t(x)]] = is_close    ? units(row[x])
+                                                    : is_inside ? int16_t(-kMaxUnits)
+                                                                : kMaxUnits;
         }
     }
 
@@ -278,7 +279,7 @@ class ArraySurface {
     const InputFile file_;
     const SurfaceValues values_;
     VoxelModel model_;
-    std::array<AxisPlaces, 3> places_;  ///< by the file's axes
+    std::array<AxisIndices, 3> axis_indices_;  ///< by the file's axes
     ArraySides sides_;
     CellBits close_;                ///< within kReach of the surface
     std::vector<uint8_t> is_near_;  ///< by brick

@@ -48,7 +48,7 @@ void CellBits::dilate(int reach) {
         for (int z = first; z < end; ++z) {
             for (int y = 0; y < counts_.y; ++y)
                 dilate_row(reach, row(y, z), layer.data() + size_t(y) * words_);
-            uint64_t* to = next.data() + place(0, z);
+            uint64_t* to = next.data() + first_word(0, z);
             for (int y = 0; y < counts_.y; ++y)
                 for (int from = std::max(y - reach, 0); from <= std::min(y + reach, counts_.y - 1);
                      ++from)

@@ -15,8 +15,8 @@ class CellBits {
     explicit CellBits(const glm::ivec3& counts);
 
     size_t words() const { return words_; }  ///< number of words in a row
-    uint64_t* row(int y, int z) { return bits_.data() + place(y, z); }
-    const uint64_t* row(int y, int z) const { return bits_.data() + place(y, z); }
+    uint64_t* row(int y, int z) { return bits_.data() + first_word(y, z); }
+    const uint64_t* row(int y, int z) const { return bits_.data() + first_word(y, z); }
     bool operator()(const glm::ivec3& cell) const {
         return row(cell.y, cell.z)[cell.x / 64] >> (cell.x % 64) & 1;
     }
@@ -37,7 +37,7 @@ class CellBits {
     void dilate(int reach);
 
   private:
-    size_t place(int y, int z) const {
+    size_t first_word(int y, int z) const {
         return (size_t(y) + size_t(counts_.y) * size_t(z)) * words_;
     }
     void dilate_row(int reach, const uint64_t* from, uint64_t* to) const;

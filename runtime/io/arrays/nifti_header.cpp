@@ -20,14 +20,16 @@ namespace voxelume {
 namespace {
 
 /// The byte offsets of the two versions' numbers.
-struct Places {
+struct HeaderOffsets {
     size_t header, dim, datatype, pixdim, vox_offset, slope, intercept, qform, sform, quatern,
         offset, srow, units;
     bool is_wide;  ///< 64-bit sizes, doubles and 32-bit codes
 };
 
-constexpr Places kVersion1 = {348, 40, 70, 76, 108, 112, 116, 252, 254, 256, 268, 280, 123, false};
-constexpr Places kVersion2 = {540, 16, 12, 104, 168, 176, 184, 344, 348, 352, 376, 400, 500, true};
+constexpr HeaderOffsets kVersion1 = {348, 40,  70,  76,  108, 112, 116,
+                                     252, 254, 256, 268, 280, 123, false};
+constexpr HeaderOffsets kVersion2 = {540, 16,  12,  104, 168, 176, 184,
+                                     344, 348, 352, 376, 400, 500, true};
 
 class NiftiHeader {
   public:
@@ -35,13 +37,13 @@ class NiftiHeader {
         ByteStream stream(file, 0, encoding);
         const size_t count = stream.read_some(bytes_.data(), bytes_.size());
         if (count < kVersion1.header) file.refuse("too short for a NIfTI file");
-        places_ = &kVersion1;
+        offsets_ = &kVersion1;
         if (find_order(kVersion2) && count >= kVersion2.header)
-            places_ = &kVersion2;
+            offsets_ = &kVersion2;
         else if (!find_order(kVersion1))
             file.refuse("not a NIfTI file");
         const char* magic =
-            reinterpret_cast<const char*>(bytes_.data()) + (places_->is_wide ? 4 : 344);
+            reinterpret_cast<const char*>(bytes_.data()) + (offsets_->is_wide ? 4 : 344);
         has_data_elsewhere_ =
             std::memcmp(magic, "ni1", 3) == 0 || std::memcmp(magic, "ni2", 3) == 0;
         if (has_data_elsewhere_) return;
@@ -56,42 +58,42 @@ class NiftiHeader {
     bool is_swapped() const { return is_swapped_; }
     /// True if the data are in a second file, whose name differs in the ending .img.
     bool has_data_elsewhere() const { return has_data_elsewhere_; }
-    const Places& places() const { return *places_; }
+    const HeaderOffsets& offsets() const { return *offsets_; }
 
     template <class Number>
-    Number at(size_t place) const {
+    Number at(size_t offset) const {
         std::array<unsigned char, sizeof(Number)> bytes;
-        std::copy_n(bytes_.begin() + long(place), sizeof(Number), bytes.begin());
+        std::copy_n(bytes_.begin() + long(offset), sizeof(Number), bytes.begin());
         if (is_swapped_) std::ranges::reverse(bytes);
         Number number;
         std::memcpy(&number, bytes.data(), sizeof number);
         return number;
     }
     /// The `i`-th of the numbers at an offset: floats in version 1, doubles in version 2.
-    double real(size_t place, size_t i = 0) const {
-        const double v = places_->is_wide ? at<double>(place + 8 * i) : at<float>(place + 4 * i);
+    double real(size_t offset, size_t i = 0) const {
+        const double v = offsets_->is_wide ? at<double>(offset + 8 * i) : at<float>(offset + 4 * i);
         return std::isfinite(v) ? v : 0;
     }
     int64_t dim(size_t i) const {
-        return places_->is_wide ? at<int64_t>(places_->dim + 8 * i)
-                                : at<int16_t>(places_->dim + 2 * i);
+        return offsets_->is_wide ? at<int64_t>(offsets_->dim + 8 * i)
+                                 : at<int16_t>(offsets_->dim + 2 * i);
     }
-    int code(size_t place) const {
-        return places_->is_wide ? at<int32_t>(place) : at<int16_t>(place);
+    int code(size_t offset) const {
+        return offsets_->is_wide ? at<int32_t>(offset) : at<int16_t>(offset);
     }
-    int units() const { return places_->is_wide ? at<int32_t>(places_->units) : bytes_[123]; }
+    int units() const { return offsets_->is_wide ? at<int32_t>(offsets_->units) : bytes_[123]; }
 
   private:
-    bool find_order(const Places& places) {
+    bool find_order(const HeaderOffsets& offsets) {
         for (const bool is_swapped : {false, true}) {
             is_swapped_ = is_swapped;
-            if (at<int32_t>(0) == int32_t(places.header)) return true;
+            if (at<int32_t>(0) == int32_t(offsets.header)) return true;
         }
         return false;
     }
 
     std::array<unsigned char, 540> bytes_{};
-    const Places* places_ = nullptr;
+    const HeaderOffsets* offsets_ = nullptr;
     bool is_swapped_ = false, has_data_elsewhere_ = false;
 };
 
@@ -131,12 +133,12 @@ std::filesystem::path header_file(const std::filesystem::path& path) {
 
 /// Finds the bytes of the values.
 void set_data(const NiftiHeader& header, const InputFile& file, CellArray& array) {
-    const Places& places = header.places();
-    const double offset = places.is_wide ? double(header.at<int64_t>(places.vox_offset))
-                                         : header.real(places.vox_offset);
+    const HeaderOffsets& offsets = header.offsets();
+    const double offset = offsets.is_wide ? double(header.at<int64_t>(offsets.vox_offset))
+                                          : header.real(offsets.vox_offset);
     if (!(offset >= 0 && offset <= 1e15))
         file.refuse("its header gives no place where its data begin; it is damaged");
-    uint64_t start = std::max(uint64_t(offset), uint64_t(places.header));
+    uint64_t start = std::max(uint64_t(offset), uint64_t(offsets.header));
     if (header.has_data_elsewhere()) {
         const auto data = partner_of(file.path(), ".img");
         if (!data)
@@ -169,7 +171,7 @@ void set_type(const NiftiHeader& header, const InputFile& file, CellArray& array
                                             {1024, CellType::i64, 1},
                                             {1280, CellType::u64, 1},
                                             {2304, CellType::u8, 4}}};
-    const int code = header.at<int16_t>(header.places().datatype);
+    const int code = header.at<int16_t>(header.offsets().datatype);
     for (const Row& row : kRows) {
         if (row.code != code) continue;
         array.type = row.type;
@@ -184,35 +186,35 @@ void set_type(const NiftiHeader& header, const InputFile& file, CellArray& array
 
 /// The map from a cell's indices to its middle, in the file's units and axes.
 glm::dmat4 file_from_index(const NiftiHeader& header, CellArray& array) {
-    const Places& places = header.places();
+    const HeaderOffsets& offsets = header.offsets();
     glm::dmat4 map(1);
-    if (header.code(places.sform) > 0) {
-        const size_t row_bytes = places.is_wide ? 32 : 16;
+    if (header.code(offsets.sform) > 0) {
+        const size_t row_bytes = offsets.is_wide ? 32 : 16;
         for (size_t row = 0; row < 3; ++row)
             for (size_t column = 0; column < 4; ++column)
-                map[int(column)][int(row)] = header.real(places.srow + row * row_bytes, column);
+                map[int(column)][int(row)] = header.real(offsets.srow + row * row_bytes, column);
         return map;
     }
     glm::dvec3 spacing;
     for (size_t i = 0; i < 3; ++i) {
-        const double s = std::abs(header.real(places.pixdim, i + 1));
+        const double s = std::abs(header.real(offsets.pixdim, i + 1));
         spacing[int(i)] = s > 0 ? s : 1;
         if (s == 0) array.notes.emplace_back("assumed: spacing 1 where the file has 0");
     }
-    if (header.code(places.qform) > 0) {
-        glm::dvec3 turn(header.real(places.quatern), header.real(places.quatern, 1),
-                        header.real(places.quatern, 2));
+    if (header.code(offsets.qform) > 0) {
+        glm::dvec3 turn(header.real(offsets.quatern), header.real(offsets.quatern, 1),
+                        header.real(offsets.quatern, 2));
         // Half a turn has no real part; the remainder of rounding would turn the axes.
         const double square = 1 - glm::dot(turn, turn);
         if (square < 1e-7) turn = glm::normalize(turn);
         const double a = square < 1e-7 ? 0 : std::sqrt(square), b = turn.x, c = turn.y, d = turn.z;
-        const double flip = header.real(places.pixdim) < 0 ? -1 : 1;
+        const double flip = header.real(offsets.pixdim) < 0 ? -1 : 1;
         map[0] = {a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c), 0};
         map[1] = {2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b), 0};
         map[2] =
             glm::dvec4(2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b, 0) *
             flip;
-        for (size_t i = 0; i < 3; ++i) map[3][int(i)] = header.real(places.offset, i);
+        for (size_t i = 0; i < 3; ++i) map[3][int(i)] = header.real(offsets.offset, i);
     } else {
         array.notes.emplace_back(
             "assumed: X right, Y front, Z up, for the file has no orientation");
@@ -244,7 +246,7 @@ CellArray read_nifti_header(const std::filesystem::path& path) {
     array.data = file.path();
     if (is_gzip(file)) array.encoding = DataEncoding::gzip;
     const NiftiHeader header(file, array.encoding);
-    const Places& places = header.places();
+    const HeaderOffsets& offsets = header.offsets();
     array.is_swapped = header.is_swapped();
     set_type(header, file, array);
     const int64_t axes = header.dim(0);
@@ -261,10 +263,10 @@ CellArray read_nifti_header(const std::filesystem::path& path) {
     }
     if (volumes > 1) array.notes.push_back(fmt::format("the first of {} volumes", volumes));
     set_data(header, file, array);
-    const double slope = header.real(places.slope);
+    const double slope = header.real(offsets.slope);
     if (slope != 0 && !array.is_color()) {
         array.slope = slope;
-        array.intercept = header.real(places.intercept);
+        array.intercept = header.real(offsets.intercept);
     }
     const double metres = metres_per_unit(header, array);
     glm::dmat4 map = file_from_index(header, array);

@@ -134,18 +134,18 @@ template <class Store>
 void read_sparse(const GltfFile& file, const GltfValue& accessor, uint64_t count, Elements elements,
                  const Store& store) {
     if (!accessor.has("sparse")) return;
-    const GltfValue sparse = accessor.at("sparse"), places = sparse.at("indices");
+    const GltfValue sparse = accessor.at("sparse"), listed = sparse.at("indices");
     const uint64_t changed = sparse.count("count", 0);
     if (changed > count) sparse.fail(fmt::format("changes {} of {} elements", changed, count));
     Elements indices;
-    indices.type = gltf_component_type(places);
-    if (indices.type == kFloat) places.fail("indices are whole numbers");
-    place(file, places, changed, indices);
+    indices.type = gltf_component_type(listed);
+    if (indices.type == kFloat) listed.fail("indices are whole numbers");
+    place(file, listed, changed, indices);
     elements.first = nullptr;
     place(file, sparse.at("values"), changed, elements);
     for (uint64_t i = 0; i < changed; ++i) {
         const uint32_t index = indices.first ? indices.word(i, 0) : 0;
-        if (index >= count) places.fail(fmt::format("names element {} of {}", index, count));
+        if (index >= count) listed.fail(fmt::format("names element {} of {}", index, count));
         store(index, elements, i);
     }
 }

@@ -46,24 +46,24 @@ std::vector<glm::dmat4> instances_of(const GltfFile& file, const GltfValue& node
         return attributes.has(key) ? gltf_values(file, attributes, key, {components})
                                    : GltfValues{};
     };
-    const GltfValues places = read("TRANSLATION", 3), turns = read("ROTATION", 4),
+    const GltfValues translations = read("TRANSLATION", 3), turns = read("ROTATION", 4),
                      scales = read("SCALE", 3);
-    const uint64_t count = std::max({places.count, turns.count, scales.count});
+    const uint64_t count = std::max({translations.count, turns.count, scales.count});
     if (count > kMaxGltfNodes)
         throw Error(ErrorKind::limit, "{}: {}: {} instances; at most {} are read",
                     SourcePlace(file.path().string()), node.place(), count, kMaxGltfNodes);
     std::vector<glm::dmat4> maps;
     for (size_t i = 0; i < count; ++i) {
-        glm::dvec3 place(0), scale(1);
+        glm::dvec3 translation(0), scale(1);
         glm::dvec4 turn(0, 0, 0, 1);
         for (int c = 0; c < 4; ++c) {
             const size_t c3 = 3 * i + size_t(c), c4 = 4 * i + size_t(c);
             if (i < turns.count) turn[c] = double(turns.values[c4]);
             if (c == 3) continue;
-            if (i < places.count) place[c] = double(places.values[c3]);
+            if (i < translations.count) translation[c] = double(translations.values[c3]);
             if (i < scales.count) scale[c] = double(scales.values[c3]);
         }
-        maps.push_back(map_of(place, turn, scale));
+        maps.push_back(map_of(translation, turn, scale));
     }
     return maps;
 }

@@ -67,8 +67,8 @@ GltfTextureUse gltf_map(const GltfFile& file, const GltfValue& material, size_t 
     if (is_unlit) return map == kEmissionMap ? gltf_base_texture(file, material) : GltfTextureUse{};
     if (map == kEmissionMap) {
         const std::vector<double> factor = material.numbers("emissiveFactor", 3);
-        const bool glows = std::ranges::any_of(factor, [](double v) { return v > 0; });
-        return glows ? use_of(file, material.at("emissiveTexture")) : GltfTextureUse{};
+        const bool is_emissive = std::ranges::any_of(factor, [](double v) { return v > 0; });
+        return is_emissive ? use_of(file, material.at("emissiveTexture")) : GltfTextureUse{};
     }
     if (!gltf_has_gloss_map(material)) return {};
     return use_of(file, material.at("pbrMetallicRoughness").at("metallicRoughnessTexture"));
@@ -83,16 +83,16 @@ bool gltf_has_gloss_map(const GltfValue& material) {
            material.at("pbrMetallicRoughness").has("metallicRoughnessTexture");
 }
 
-std::optional<std::array<float, 6>> gltf_map_places(const GltfTextureUse& map,
-                                                    const GltfTextureUse& base) {
+std::optional<std::array<float, 6>> gltf_map_transform(const GltfTextureUse& map,
+                                                       const GltfTextureUse& base) {
     const glm::dmat2 from = matrix_of(base);
     if (map.set != base.set || glm::determinant(from) == 0) return std::nullopt;
     const glm::dmat2 m = matrix_of(map) * glm::inverse(from);
     const glm::dvec2 off = map.offset - m * base.offset;
-    const std::array<float, 6> places = {float(m[0].x), float(m[1].x), float(off.x),
-                                         float(m[0].y), float(m[1].y), float(off.y)};
-    const bool is_finite = std::ranges::all_of(places, [](float v) { return std::isfinite(v); });
-    return is_finite ? std::optional(places) : std::nullopt;
+    const std::array<float, 6> transform = {float(m[0].x), float(m[1].x), float(off.x),
+                                            float(m[0].y), float(m[1].y), float(off.y)};
+    const bool is_finite = std::ranges::all_of(transform, [](float v) { return std::isfinite(v); });
+    return is_finite ? std::optional(transform) : std::nullopt;
 }
 
 }  // namespace voxelume

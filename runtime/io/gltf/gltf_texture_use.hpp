@@ -41,7 +41,7 @@ bool gltf_has_gloss_map(const GltfValue& material);
 
 /// The UVs of a map in terms of those of the base texture, as TextureMap has them; empty where they
 /// don't follow from each other.
-std::optional<std::array<float, 6>> gltf_map_places(const GltfTextureUse& map,
-                                                    const GltfTextureUse& base);
+std::optional<std::array<float, 6>> gltf_map_transform(const GltfTextureUse& map,
+                                                       const GltfTextureUse& base);
 
 }  // namespace voxelume

@@ -132,15 +132,15 @@ TextureMap GltfTextures::map_of(int material, size_t map, Mesh& mesh) {
     const GltfTextureUse use = gltf_map(file_, item, map, unlit_.contains(material));
     TextureMap made;
     if (use.texture < 0) return made;
-    const auto places = gltf_map_places(use, of_material(material));
-    if (places)
-        made.places = *places;
+    const auto transform = gltf_map_transform(use, of_material(material));
+    if (transform)
+        made.transform = *transform;
     else
         mesh.notes.push_back(
             fmt::format("the {} texture of its {} is shown as its mean: it has texture coordinates "
                         "of its own",
                         kMapNames[map], item.place()));
-    made.texture = append_map(use, map, !places, mesh);
+    made.texture = append_map(use, map, !transform, mesh);
     return made;
 }
 

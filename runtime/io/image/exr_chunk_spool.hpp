@@ -16,7 +16,7 @@ namespace voxelume {
 /// deleted with the spool.
 class ExrChunkSpool {
   public:
-    explicit ExrChunkSpool(const std::filesystem::path& beside) : file_(beside) {}
+    explicit ExrChunkSpool(const std::filesystem::path& target) : file_(target) {}
 
     /// Keeps a chunk, whose first row is `row`. Those of one part come from the top down.
     void put(size_t part, int row, const std::string& bytes) {

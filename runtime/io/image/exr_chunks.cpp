@@ -50,18 +50,18 @@ void append_row(const ExrPlane& plane, size_t first, size_t width, std::string& 
 /// Reorders and predicts bytes as OpenEXR's ZIP requires: the bytes at even positions come first,
 /// then those at odd ones, and each becomes its difference from the one before it, plus 128.
 std::string predicted(const std::string& bytes) {
-    const size_t size = bytes.size(), odd_places = size / 2, even_places = size - odd_places;
+    const size_t size = bytes.size(), odd_count = size / 2, even_count = size - odd_count;
     std::string result(size, '\0');
     if (size == 0) return result;
     // The loops read one array and write another, so that compilers vectorize them.
     const char* __restrict from = bytes.data();
     char* __restrict even = result.data();
-    char* __restrict odd = even + even_places;
+    char* __restrict odd = even + even_count;
     even[0] = from[0];
-    for (size_t i = 1; i < even_places; ++i) even[i] = char(from[2 * i] - from[2 * i - 2] + 128);
-    if (odd_places == 0) return result;
-    odd[0] = char(from[1] - from[2 * (even_places - 1)] + 128);
-    for (size_t i = 1; i < odd_places; ++i) odd[i] = char(from[2 * i + 1] - from[2 * i - 1] + 128);
+    for (size_t i = 1; i < even_count; ++i) even[i] = char(from[2 * i] - from[2 * i - 2] + 128);
+    if (odd_count == 0) return result;
+    odd[0] = char(from[1] - from[2 * (even_count - 1)] + 128);
+    for (size_t i = 1; i < odd_count; ++i) odd[i] = char(from[2 * i + 1] - from[2 * i - 1] + 128);
     return result;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 /// The transform from UVs of the base texture to UVs of a map. v counts downwards in Texture, and
 /// upwards in the library.
-std::array<float, 6> places_by(const MtlTexture& map, const MtlTexture& base) {
+std::array<float, 6> transform_by(const MtlTexture& map, const MtlTexture& base) {
     glm::dvec2 ratio(0);
     for (int i = 0; i < 2; ++i)
         if (base.scale[i] != 0) ratio[i] = map.scale[i] / base.scale[i];
@@ -104,7 +104,7 @@ void LibraryMaps::add(const MtlMaterial& material, Texture& texture) {
     const MtlTexture& gloss = rough.file.empty() ? metal : rough;
     const auto map = [&](const MtlTexture& from, const Key& key, const auto& image) -> TextureMap {
         if (from.file.empty()) return {};
-        return {appended(key, from.clamps, image), places_by(from, material.diffuse_map)};
+        return {appended(key, from.clamps, image), transform_by(from, material.diffuse_map)};
     };
     texture.maps[kGlossMap] = map(gloss, {kGlossMap, rough.file, metal.file, gloss.clamps},
                                   [&] { return gloss_image(rough.file, metal.file); });

@@ -158,9 +158,9 @@ class ObjParser {
     }
 
     void append_corner_uvs() {
-        const size_t before = mesh_.triangles.size() - cutter_.places().size();
+        const size_t before = mesh_.triangles.size() - cutter_.triangles().size();
         mesh_.triangle_uvs.resize(before, glm::uvec3(kNoUv));
-        for (const glm::uvec3& t : cutter_.places())
+        for (const glm::uvec3& t : cutter_.triangles())
             mesh_.triangle_uvs.emplace_back(uvs_[t.x], uvs_[t.y], uvs_[t.z]);
     }
 

@@ -42,7 +42,7 @@ class PolygonCutter {
                 std::span<const uint32_t> normals = {});
 
     /// The triangles of the last polygon, as indices of its corners.
-    const std::vector<glm::uvec3>& places() const { return cut_; }
+    const std::vector<glm::uvec3>& triangles() const { return cut_; }
 
   private:
     void cut(const MeshSource& source, std::span<const uint32_t> corners, const Mesh& mesh);

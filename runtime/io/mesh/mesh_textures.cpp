@@ -47,7 +47,7 @@ void move_uvs(Mesh& mesh, uint32_t group, const MtlTexture& map) {
     }
 }
 
-std::string without_places(const std::string& texture) {
+std::string without_uvs(const std::string& texture) {
     return fmt::format("its texture {} isn't shown: no face says which part of it is its own",
                        quote(texture));
 }
@@ -171,7 +171,7 @@ void read_library_textures(const fs::path& name, Mesh& mesh) {
         }
         if (first_file(*found).empty()) continue;
         if (mesh.uvs.empty()) {
-            mesh.notes.push_back(without_places(first_file(*found)));
+            mesh.notes.push_back(without_uvs(first_file(*found)));
             continue;
         }
         const MtlMaterial material = with_base(*found);
@@ -184,7 +184,7 @@ void read_library_textures(const fs::path& name, Mesh& mesh) {
 
 void read_ply_texture(const fs::path& name, Mesh& mesh) {
     if (mesh.uvs.empty()) {
-        if (mesh.vertex_colors.empty()) mesh.notes.push_back(without_places(mesh.texture));
+        if (mesh.vertex_colors.empty()) mesh.notes.push_back(without_uvs(mesh.texture));
         return;
     }
     mesh.group_textures = {append_texture(name, mesh.texture, TextureWrap::repeat, mesh)};

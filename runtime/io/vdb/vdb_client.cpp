@@ -117,9 +117,10 @@ Volume receive_volume(WireReceiver& receiver, const InputFile& file) {
                                volume.objects.size(), volume.kinds.size()})
         if (other != count) WireReceiver::fail();
     const glm::ivec3& size = volume.frame.size;
-    const uint64_t places = uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z);
+    const uint64_t cell_count = uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z);
     for (size_t i = 0; i < count; ++i)
-        if (volume.indices[i] >= places || (i > 0 && volume.indices[i] <= volume.indices[i - 1]) ||
+        if (volume.indices[i] >= cell_count ||
+            (i > 0 && volume.indices[i] <= volume.indices[i - 1]) ||
             volume.kinds[i] > VoxelKind::unseen)
             WireReceiver::fail();
     return volume;

@@ -46,13 +46,13 @@ class VdbField : public DensityField {
     void sample_values(const glm::dvec3& first, const glm::dvec3& step, const glm::ivec3& count,
                        std::span<float> values) const override {
         const auto accessor = grid_->getConstAccessor();
-        size_t place = 0;
+        size_t index = 0;
         for (int z = 0; z < count.z; ++z)
             for (int y = 0; y < count.y; ++y)
                 for (int x = 0; x < count.x; ++x) {
                     const glm::dvec3 p = first + step * glm::dvec3(x, y, z);
                     openvdb::tools::BoxSampler::sample(accessor, near_active(index_of(p)),
-                                                       values[place++]);
+                                                       values[index++]);
                 }
     }
 

@@ -113,7 +113,7 @@ bool vdb_identifier_holds(const InputFile& file) {
             uuid.assign(block.data() + kUuidStart, kUuidLength);
         // The check of a stamp is written after the identifier.
         if (position == 0)
-            if (const auto check = stamp_check_place({block.data(), size}))
+            if (const auto check = stamp_check_offset({block.data(), size}))
                 std::fill_n(block.data() + *check, kStampCheckDigits, '0');
         hash.update(block.data(), size);
     }

@@ -137,15 +137,15 @@ void send_grid(WireSender& sender, const FloatGrid& grid) {
 }
 
 FloatGrid::Ptr receive_grid(WireReceiver& receiver) {
-    constexpr uint64_t kMost = uint64_t{1} << 32;
+    constexpr uint64_t kMaxCount = uint64_t{1} << 32;
     FloatGrid::Ptr grid = FloatGrid::create(receiver.value<float>());
     grid->setTransform(std::make_shared<openvdb::math::Transform>(receive_map(receiver)));
-    for (const TileNumbers& tile : receiver.values<TileNumbers>(kMost)) {
+    for (const TileNumbers& tile : receiver.values<TileNumbers>(kMaxCount)) {
         if (tile.level < 1 || tile.level > Tree::RootNodeType::LEVEL) WireReceiver::fail();
         grid->tree().addTile(tile.level, Coord(tile.x, tile.y, tile.z), tile.value,
                              tile.is_active != 0);
     }
-    const uint64_t leaves = receiver.count(kMost);
+    const uint64_t leaves = receiver.count(kMaxCount);
     for (uint64_t leaf = 0; leaf < leaves; ++leaf) receive_leaf(receiver, grid->tree());
     return grid;
 }

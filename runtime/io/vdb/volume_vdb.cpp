@@ -54,8 +54,8 @@ openvdb::math::Transform::Ptr make_transform(const VolumeFrame& frame) {
     return openvdb::math::Transform::createLinearTransform(rows_of(world_from_index));
 }
 
-openvdb::Coord coord_of(const VolumeFrame& frame, uint64_t place) {
-    const glm::ivec3 cell = cell_of(frame, place);
+openvdb::Coord coord_of(const VolumeFrame& frame, uint64_t index) {
+    const glm::ivec3 cell = cell_of(frame, index);
     return {cell.x, cell.y, cell.z};
 }
 
@@ -148,9 +148,9 @@ VolumeGrids take_grids(const openvdb::GridPtrVec& all) {
     return grids;
 }
 
-/// A voxel before the voxels are sorted by `place`.
+/// A voxel before the voxels are sorted by `index`.
 struct FoundVoxel {
-    uint64_t place = 0;
+    uint64_t index = 0;
     openvdb::Vec3s color;
     float opacity = 0, depth = 0;
     int32_t object = 0, kind = 0;
@@ -170,13 +170,13 @@ std::vector<FoundVoxel> find_voxels(const InputFile& readable, const VolumeFrame
         if (!value.isVoxelValue() || c.x() < 0 || c.y() < 0 || c.z() < 0 || c.x() >= size.x ||
             c.y() >= size.y || c.z() >= size.z)
             readable.refuse("a voxel lies outside of the display");
-        const uint64_t place =
+        const uint64_t index =
             uint64_t(c.x()) +
             uint64_t(size.x) * (uint64_t(c.y()) + uint64_t(size.y) * uint64_t(c.z()));
-        voxels.push_back({place, color.getValue(c), *value, depth.getValue(c), object.getValue(c),
+        voxels.push_back({index, color.getValue(c), *value, depth.getValue(c), object.getValue(c),
                           kind.getValue(c)});
     }
-    std::ranges::sort(voxels, {}, &FoundVoxel::place);
+    std::ranges::sort(voxels, {}, &FoundVoxel::index);
     return voxels;
 }
 
@@ -195,7 +195,7 @@ Volume volume_in(const InputFile& readable) {
     const VolumeGrids grids = take_grids(*content.grids);
     if (!grids.complete()) readable.refuse("its grids aren't those of a display");
     for (const FoundVoxel& voxel : find_voxels(readable, volume.frame, grids)) {
-        volume.indices.push_back(voxel.place);
+        volume.indices.push_back(voxel.index);
         volume.colors.emplace_back(voxel.color.x(), voxel.color.y(), voxel.color.z());
         volume.opacities.push_back(voxel.opacity);
         volume.depths.push_back(voxel.depth);

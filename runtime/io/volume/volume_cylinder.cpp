@@ -50,11 +50,11 @@ struct Cylinder {
     /// The position of a voxel in the volume's arrays, or -1 if it isn't listed.
     int64_t find(const glm::ivec3& cell) const {
         const glm::ivec3& n = volume.frame.size;
-        const uint64_t place =
+        const uint64_t index =
             uint64_t(cell.x) +
             uint64_t(n.x) * (uint64_t(cell.y) + uint64_t(n.y) * uint64_t(cell.z));
-        const auto found = std::ranges::lower_bound(volume.indices, place);
-        if (found == volume.indices.end() || *found != place) return -1;
+        const auto found = std::ranges::lower_bound(volume.indices, index);
+        if (found == volume.indices.end() || *found != index) return -1;
         return found - volume.indices.begin();
     }
 };

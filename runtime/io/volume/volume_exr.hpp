@@ -33,6 +33,6 @@ uint64_t find_checksum(const InputFile& file);
 
 /// The XXH3 of the file with '0' characters in place of the checksum, and of the check of a stamp,
 /// which is filled in later, as text.
-std::string compute_checksum(const InputFile& file, uint64_t place);
+std::string compute_checksum(const InputFile& file, uint64_t offset);
 
 }  // namespace voxelume::volume_exr

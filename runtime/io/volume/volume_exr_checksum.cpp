@@ -24,7 +24,7 @@ uint64_t find_checksum(const InputFile& file) {
     return found + head.size();
 }
 
-std::string compute_checksum(const InputFile& file, uint64_t place) {
+std::string compute_checksum(const InputFile& file, uint64_t offset) {
     const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
                                                                          XXH3_freeState);
     XXH3_64bits_reset(state.get());
@@ -32,10 +32,10 @@ std::string compute_checksum(const InputFile& file, uint64_t place) {
     for (uint64_t position = 0; position < file.size(); position += block.size()) {
         const uint64_t size = std::min<uint64_t>(block.size(), file.size() - position);
         file.read(position, block.data(), size);
-        for (uint64_t i = place; i < place + kChecksumDigits; ++i)
+        for (uint64_t i = offset; i < offset + kChecksumDigits; ++i)
             if (i >= position && i < position + size) block[i - position] = '0';
         if (position == 0)
-            if (const auto check = stamp_check_place({block.data(), size}))
+            if (const auto check = stamp_check_offset({block.data(), size}))
                 std::fill_n(block.data() + *check, kStampCheckDigits, '0');
         XXH3_64bits_update(state.get(), block.data(), size);
     }

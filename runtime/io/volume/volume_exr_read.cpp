@@ -23,9 +23,9 @@ namespace {
 using volume_exr::kIdChannels;
 using volume_exr::kReadChannels;
 
-/// A sample before the voxels are sorted by `place`.
+/// A sample before the voxels are sorted by `index`.
 struct Sample {
-    uint64_t place = 0;
+    uint64_t index = 0;
     glm::vec3 color{0};
     float opacity = 0, depth = 0;
     uint32_t object = 0;
@@ -110,7 +110,7 @@ std::vector<Sample> read_rows(const InputFile& readable, const VolumeFrame& fram
             for (uint32_t n = 0; n < row.counts[x]; ++n)
                 samples.push_back(take_sample(readable, frame, row, uint64_t(y) * width + x, i++));
     }
-    std::ranges::sort(samples, {}, &Sample::place);
+    std::ranges::sort(samples, {}, &Sample::index);
     return samples;
 }
 
@@ -143,7 +143,7 @@ Volume take_volume(const InputFile& readable, const VolumePath& path) {
             volume.attributes[name] = text->value();
     }
     for (const Sample& sample : read_rows(readable, volume.frame, input)) {
-        volume.indices.push_back(sample.place);
+        volume.indices.push_back(sample.index);
         volume.colors.push_back(sample.color);
         volume.opacities.push_back(sample.opacity);
         volume.depths.push_back(sample.depth);
@@ -159,11 +159,11 @@ Volume read_volume_exr(const VolumePath& path) {
     const InputFile readable(path);
     // OpenEXR 3.1.5 writes past its memory for some damaged deep files, so it reads only files that
     // are unchanged since they were written.
-    const uint64_t place = volume_exr::find_checksum(readable);
-    if (place == 0) readable.refuse("not a deep image of voxelume: it has no checksum");
+    const uint64_t offset = volume_exr::find_checksum(readable);
+    if (offset == 0) readable.refuse("not a deep image of voxelume: it has no checksum");
     std::string checksum(volume_exr::kChecksumDigits, '\0');
-    readable.read(place, checksum.data(), checksum.size());
-    if (checksum != volume_exr::compute_checksum(readable, place))
+    readable.read(offset, checksum.data(), checksum.size());
+    if (checksum != volume_exr::compute_checksum(readable, offset))
         readable.refuse("damaged, or changed by another program: its checksum differs");
     check_exr_header(readable);
     try {

@@ -36,7 +36,7 @@ PixelOrder order_by_pixel(const Volume& volume) {
     const uint64_t pixels = uint64_t(volume.frame.size.x) * uint64_t(volume.frame.size.y);
     PixelOrder order;
     order.first.resize(pixels + 1);
-    for (const uint64_t place : volume.indices) ++order.first[place % pixels + 1];
+    for (const uint64_t index : volume.indices) ++order.first[index % pixels + 1];
     for (uint64_t i = 0; i < pixels; ++i) order.first[i + 1] += order.first[i];
     std::vector<uint64_t> next(order.first.begin(), order.first.end() - 1);
     order.voxels.resize(volume.indices.size());
@@ -179,10 +179,10 @@ void write_volume_exr(const VolumePath& path, const Volume& volume) {
         file.fail(error.what());
     }
     const InputFile written(file.temporary());
-    const uint64_t place = volume_exr::find_checksum(written);
-    if (place == 0) file.fail("its texts are too long for a header");
-    const std::string checksum = volume_exr::compute_checksum(written, place);
-    file.seek(place);
+    const uint64_t offset = volume_exr::find_checksum(written);
+    if (offset == 0) file.fail("its texts are too long for a header");
+    const std::string checksum = volume_exr::compute_checksum(written, offset);
+    file.seek(offset);
     file.write(checksum.data(), checksum.size());
     file.commit();
 }

@@ -166,10 +166,10 @@ void complete(Volume& volume) {
     }
 }
 
-void take_voxel(const InputFile& file, Volume& volume, uint64_t place, const float* values,
+void take_voxel(const InputFile& file, Volume& volume, uint64_t index, const float* values,
                 size_t channels) {
     if (std::all_of(values, values + channels, [](float value) { return value == 0; })) return;
-    volume.indices.push_back(place);
+    volume.indices.push_back(index);
     volume.colors.emplace_back(values[0], values[1], values[2]);
     volume.opacities.push_back(values[3]);
     if (channels == 4) return;

@@ -69,7 +69,7 @@ struct RawFile {
     const VolumeJson& arrays;
     VolumeFrame frame;
 
-    /// Calls `take(place, values)` with the values of every voxel.
+    /// Calls `take(index, values)` with the values of every voxel.
     template <class Value, class Take>
     void read(size_t number, const char* name, size_t components, Take take) const {
         const uint64_t count = voxel_count(frame);
@@ -82,13 +82,13 @@ struct RawFile {
         }
         array.verify();
     }
-    /// Calls `take(place, values)` with the values of the voxels that `indices` lists.
+    /// Calls `take(index, values)` with the values of the voxels that `indices` lists.
     template <class Value, class Take>
     void read_listed(const std::vector<uint64_t>& indices, size_t number, const char* name,
                      size_t components, Take take) const {
         size_t next = 0;
-        read<Value>(number, name, components, [&](uint64_t place, const Value* values) {
-            if (next == indices.size() || indices[next] != place) return;
+        read<Value>(number, name, components, [&](uint64_t index, const Value* values) {
+            if (next == indices.size() || indices[next] != index) return;
             ++next;
             take(values);
         });
@@ -98,10 +98,10 @@ struct RawFile {
 void read_voxels(const RawFile& file, Volume& volume) {
     const double bytes = double(voxel_count(file.frame)) * 25;
     if (double(file.data.size()) > bytes) file.data.refuse("it has more data than its arrays");
-    file.read<uint8_t>(3, "kind", 1, [&](uint64_t place, const uint8_t* kind) {
+    file.read<uint8_t>(3, "kind", 1, [&](uint64_t index, const uint8_t* kind) {
         if (*kind == 0) return;
         if (*kind > 3) file.data.refuse("a voxel has an unknown kind");
-        volume.indices.push_back(place);
+        volume.indices.push_back(index);
         volume.kinds.push_back(static_cast<VoxelKind>(*kind - 1));
     });
     const std::vector<uint64_t>& indices = volume.indices;

@@ -24,11 +24,11 @@ void add_stored(const VoxelModel& model, size_t slot, CubeList& cubes) {
              bits &= bits - 1) {
             const glm::ivec3 in = leaf_corner(leaf) + cell_in_leaf(std::countr_zero(bits));
             cubes.cells.push_back(first + in);
-            const size_t place = slot * kVoxelsPerBrick + voxel_in_brick(in);
-            if (!model.colors.empty()) cubes.colors.push_back(model.colors[place]);
+            const size_t index = slot * kVoxelsPerBrick + voxel_in_brick(in);
+            if (!model.colors.empty()) cubes.colors.push_back(model.colors[index]);
             if (!cubes.materials.empty())
                 cubes.material_numbers.push_back(
-                    uint16_t(model.attributes[place] >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK));
+                    uint16_t(model.attributes[index] >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK));
         }
 }
 

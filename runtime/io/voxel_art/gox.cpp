@@ -74,7 +74,7 @@ class GoxReader {
     void read_layer(ByteReader reader) {
         const auto count = reader.take<uint32_t>();
         const size_t before = blocks_.size();
-        std::set<std::array<int32_t, 3>> places;
+        std::set<std::array<int32_t, 3>> positions;
         for (uint32_t i = 0; i < count; ++i) {
             const auto numbers = reader.take<std::array<int32_t, 5>>();
             if (numbers[0] < 0 || size_t(numbers[0]) >= pictures_.size())
@@ -83,7 +83,7 @@ class GoxReader {
             for (int axis = 0; axis < 3; ++axis)
                 if (first[axis] < -kFarthestBlock || first[axis] > kFarthestBlock)
                     file_.refuse("a block is too far away");
-            if (!places.insert({numbers[1], numbers[2], numbers[3]}).second)
+            if (!positions.insert({numbers[1], numbers[2], numbers[3]}).second)
                 file_.refuse("a layer has two blocks at one place");
             if (blocks_.size() == kMaxBlocks)
                 file_.refuse(fmt::format("has more than {} blocks", kMaxBlocks));

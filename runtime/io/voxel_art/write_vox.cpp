@@ -61,7 +61,7 @@ Paint paint_of(const CubeList& cubes, size_t voxel) {
 struct VoxPalette {
     std::vector<uint32_t> colors;
     std::vector<size_t> materials;
-    std::map<Paint, size_t> places;
+    std::map<Paint, size_t> indices;
 };
 
 /// The palette; each material gets a share of the colours.
@@ -80,7 +80,7 @@ VoxPalette palette_of(const CubeList& cubes) {
             all <= kMaxColors ? colors.size() : 1 + spare * (colors.size() - 1) / further;
         const Palette own = median_cut(colors, share);
         for (const auto& [color, number] : own.numbers)
-            palette.places[{material, color}] = palette.colors.size() + number;
+            palette.indices[{material, color}] = palette.colors.size() + number;
         palette.colors.insert(palette.colors.end(), own.colors.begin(), own.colors.end());
         palette.materials.resize(palette.colors.size(), material);
     }
@@ -113,10 +113,10 @@ Parts parts_of(const CubeList& cubes, const VoxPalette& palette) {
         VoxPart& part = parts[{p.x, p.y, p.z}];
         part.low = glm::min(part.low, v);
         part.high = glm::max(part.high, v + 1);
-        part.voxels.emplace_back(v, uint8_t(palette.places.at(paint_of(cubes, i)) + 1));
+        part.voxels.emplace_back(v, uint8_t(palette.indices.at(paint_of(cubes, i)) + 1));
     }
     static_assert(kPartSide == 1 << 8);
-    for (auto& [place, part] : parts)
+    for (auto& [position, part] : parts)
         std::ranges::sort(part.voxels, {}, [](const auto& voxel) {
             return std::array{voxel.first.z, voxel.first.y, voxel.first.x};
         });
@@ -139,14 +139,14 @@ void add_model(std::string& bytes, const VoxPart& part) {
     add_chunk(bytes, "XYZI", voxels);
 }
 
-/// A transform node, with a translation where `place` isn't empty.
-std::string transform(int node, int child, const std::string& place) {
+/// A transform node, with a translation unless `translation` is empty.
+std::string transform(int node, int child, const std::string& translation) {
     std::string content;
     for (const int value : {node, 0, child, -1, 0, 1}) add_int(content, value);
-    add_int(content, place.empty() ? 0 : 1);
-    if (!place.empty()) {
+    add_int(content, translation.empty() ? 0 : 1);
+    if (!translation.empty()) {
         add_text(content, "_t");
-        add_text(content, place);
+        add_text(content, translation);
     }
     return content;
 }
@@ -158,7 +158,7 @@ void add_graph(std::string& bytes, const Parts& parts) {
     for (int i = 0; i < int(parts.size()); ++i) add_int(group, 2 + 2 * i);
     add_chunk(bytes, "nGRP", group);
     int model = 0;
-    for (const auto& [place, part] : parts) {
+    for (const auto& [position, part] : parts) {
         // The translation is that of the corner of voxel floor(size / 2).
         const glm::ivec3 t = part.low + (part.high - part.low) / 2;
         add_chunk(bytes, "nTRN",
@@ -194,7 +194,7 @@ WriterNotes write_vox(const std::filesystem::path& path, const CubeList& cubes) 
     const VoxPalette palette = palette_of(cubes);
     const Parts parts = parts_of(cubes, palette);
     std::string inside;
-    for (const auto& [place, part] : parts) add_model(inside, part);
+    for (const auto& [position, part] : parts) add_model(inside, part);
     add_graph(inside, parts);
     std::string colors;
     for (size_t i = 0; i < 256; ++i)
@@ -218,8 +218,8 @@ WriterNotes write_vox(const std::filesystem::path& path, const CubeList& cubes) 
     if (parts.size() > 1)
         notes.push_back(fmt::format("{} models of {} voxels a side stand side by side",
                                     parts.size(), kPartSide));
-    if (palette.places.size() > palette.colors.size())
-        notes.push_back(fmt::format("{} colours became {} by median cut", palette.places.size(),
+    if (palette.indices.size() > palette.colors.size())
+        notes.push_back(fmt::format("{} colours became {} by median cut", palette.indices.size(),
                                     palette.colors.size()));
     const auto is_cut = [&](size_t material) {
         return material > 0 && cubes.materials[material - 1].vox.is_flux_cut;

@@ -231,10 +231,11 @@ bool TakenBricks::take(const glm::ivec3& brick) {
     const double count = double(table_.x) * table_.y * table_.z;
     if (count > kMaxMarked) return true;
     if (taken_.empty()) taken_.resize(size_t(count));
-    auto place = taken_[size_t(brick.x) +
-                        size_t(table_.x) * (size_t(brick.y) + size_t(table_.y) * size_t(brick.z))];
-    const bool is_new = !place;
-    place = true;
+    auto is_taken =
+        taken_[size_t(brick.x) +
+               size_t(table_.x) * (size_t(brick.y) + size_t(table_.y) * size_t(brick.z))];
+    const bool is_new = !is_taken;
+    is_taken = true;
     return is_new;
 }
 

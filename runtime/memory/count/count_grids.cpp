@@ -26,7 +26,7 @@ TriangleBins sort_triangles(const Device& device, const GridCounts& counts, doub
 /// Follows find_inside.
 Buffer<uint16_t> count_inside(const Device& device, const GridCounts& counts) {
     const Windings windings =
-        allocate_windings(device, counts.bricks, counts.bricks, brick_places(counts.frame));
+        allocate_windings(device, counts.bricks, counts.bricks, brick_slots(counts.frame));
     return allocate_inside(device, counts.bricks);
 }
 
@@ -116,7 +116,7 @@ BrickGrid count_solid_grid(const Device& device, const GridCounts& counts) {
     BrickGrid grid = empty_grid(counts);
     const Buffer<uint32_t> solids(device, "solids", counts.shapes * VXL_SOLID_WORDS);
     {
-        const Buffer<uint32_t> states(device, "brick states", brick_places(counts.frame));
+        const Buffer<uint32_t> states(device, "brick states", brick_slots(counts.frame));
         grid.slots = allocate_slots(device, "slots", counts.frame);
         grid.coordinates = Buffer<uint32_t>(device, "coordinates", counts.bricks);
     }

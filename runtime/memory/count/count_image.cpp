@@ -46,12 +46,12 @@ DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& wo
                                          DilationLevel of) {
     const glm::dvec3 table(of == DilationLevel::leaves ? world.frame.sectors()
                                                        : (world.frame.sectors() + 3) / 4);
-    const double places = table.x * table.y * table.z;
+    const double slots = table.x * table.y * table.z;
     const size_t whole = world.bricks.size() / kWordsPerRecord / kRecordsPerSector;
     const double records = double(whole);
     const double stored = (of == DilationLevel::leaves ? records : records / 16);
     DilatedOccupancy dilated_occupancy =
-        allocate_dilated_occupancy(device, size_t(places), size_t(std::min(places, stored + 1)));
+        allocate_dilated_occupancy(device, size_t(slots), size_t(std::min(slots, stored + 1)));
     dilated_occupancy.of = of;
     return dilated_occupancy;
 }
@@ -97,10 +97,10 @@ void count_first_samples(const Device& device, const Scene& scene, ImageMemory& 
     const RenderSettings first = first_samples_of(scene).render;
     memory.first_image = allocate_image(device, first.size, first.channels);
     memory.first_mattes = allocate_mattes(device, first.size, first.channels);
-    const size_t places = (size_t(scene.render.size.x) * size_t(scene.render.size.y) + 15) / 16;
-    memory.image = allocate_image(device, {4 * int(places), 4}, first.channels);
-    memory.mattes = allocate_mattes(device, {4 * int(places), 4}, first.channels);
-    memory.chosen_pixels = {device, "chosen pixels", 16 * places};
+    const size_t slots = (size_t(scene.render.size.x) * size_t(scene.render.size.y) + 15) / 16;
+    memory.image = allocate_image(device, {4 * int(slots), 4}, first.channels);
+    memory.mattes = allocate_mattes(device, {4 * int(slots), 4}, first.channels);
+    memory.chosen_pixels = {device, "chosen pixels", 16 * slots};
 }
 
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,

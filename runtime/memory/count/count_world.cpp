@@ -111,7 +111,7 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     CountedWorld world;
     world.painters = count_painters(device, objects);
     {
-        const Buffer<uint8_t> states(device, "brick states", brick_places(frame));
+        const Buffer<uint8_t> states(device, "brick states", brick_slots(frame));
         const Buffer<uint32_t> listed(device, "listed bricks", counts.bricks);
     }
     std::vector<PlacedObject> others(objects.begin(), objects.end());
@@ -148,7 +148,7 @@ void count_growth(const Device& device, BrickGrid& world) {
 
 BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
                            const CountedWorld& world, const PartBricks& bricks) {
-    { const Buffer<uint8_t> states(device, "brick states", brick_places(world.grid.frame)); }
+    { const Buffer<uint8_t> states(device, "brick states", brick_slots(world.grid.frame)); }
     count_painting(device, size_t(std::max(bricks.of_fields, bricks.of_others)));
     std::vector<PlacedObject> others(objects.begin(), objects.end());
     CountedWorld changed;  // new grids of smooth objects coexist with the old ones here

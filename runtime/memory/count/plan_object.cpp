@@ -37,15 +37,15 @@ SurfaceArea min_area_of(const Model& model, AssetStore& meshes) {
     return part ? without(area, meshes.summary_of(*part)->area) : area;
 }
 
-SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_least) {
+SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool is_minimum) {
     const Model& model = scene_.models[size_t(object.model)];
     const glm::dmat4& map = object.world_from_object;
     if (model.solid) {
-        const SurfaceArea area = at_least ? min_solid_area(*model.solid, map, box_)
-                                          : solid_area(*model.solid, map, box_);
+        const SurfaceArea area = is_minimum ? min_solid_area(*model.solid, map, box_)
+                                            : solid_area(*model.solid, map, box_);
         return surface_extent(area, glm::dmat4(1), frame_, band);
     }
-    const SurfaceArea area = at_least ? min_area_of(model, meshes_) : area_of(object.model);
+    const SurfaceArea area = is_minimum ? min_area_of(model, meshes_) : area_of(object.model);
     const SurfaceExtent extent = surface_extent(area, map, frame_, band);
     const double inside = part_in_world(object);
     return {extent.voxels * inside, extent.bricks * inside, extent.listed * inside};

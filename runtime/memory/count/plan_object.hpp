@@ -38,7 +38,7 @@ class ObjectExtents {
     const std::vector<VoxelBox>& boxes();
 
   private:
-    SurfaceExtent extent(const Object& object, double band, bool at_least);
+    SurfaceExtent extent(const Object& object, double band, bool is_minimum);
     double part_in_world(const Object& object);
 
     const Scene& scene_;

@@ -100,13 +100,13 @@ KernelCompilers::~KernelCompilers() {
 
 void KernelCompilers::allow(int processes, std::filesystem::path program) {
     const std::lock_guard lock(mutex_);
-    most_ = processes;
+    max_processes_ = processes;
     program_ = std::move(program);
 }
 
 bool KernelCompilers::is_allowed() const {
     const std::lock_guard lock(mutex_);
-    return most_ > 0 && wake_ >= 0 && !is_ended_ && getpid() == process_;
+    return max_processes_ > 0 && wake_ >= 0 && !is_ended_ && getpid() == process_;
 }
 
 void KernelCompilers::set_longest_wait(std::chrono::milliseconds time) {
@@ -126,8 +126,8 @@ bool KernelCompilers::start(const Target& target, const std::filesystem::path& f
         const std::vector<std::string> arguments = {VXL_VERSION, folder.string(),
                                                     std::to_string(target.index), target.name,
                                                     std::to_string(process_)};
-        threads_.reserve(size_t(most_));
-        for (int i = 0; i < most_; ++i) {
+        threads_.reserve(size_t(max_processes_));
+        for (int i = 0; i < max_processes_; ++i) {
             threads_.emplace_back([this, program, arguments] { serve(program, arguments); });
             ++living_;
         }

@@ -95,7 +95,7 @@ class KernelCompilers {
     std::filesystem::path program_;
     std::chrono::milliseconds longest_wait_{10'000};
     pid_t process_;  ///< a forked child has no threads
-    int most_ = 0;
+    int max_processes_ = 0;
     int wake_ = -1;  ///< readable once all helpers are to end
     bool is_ended_ = false;
     int compiled_ = 0;

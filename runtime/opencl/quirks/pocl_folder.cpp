@@ -113,14 +113,14 @@ void PoclFolder::remove() {
     const fs::path moved = folder->folder_.string() + "-ended";
     constexpr int kAttempts = 20;
     std::error_code error;
-    int place = -1;
-    for (int i = 0; i < kAttempts && place < 0; ++i) {
+    int descriptor = -1;
+    for (int i = 0; i < kAttempts && descriptor < 0; ++i) {
         fs::rename(folder->folder_, moved, error);
-        place = open(folder->folder_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+        descriptor = open(folder->folder_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
         fs::remove_all(moved, error);
     }
-    if (place < 0) return;  // the next run removes the rest
-    close(place);
+    if (descriptor < 0) return;  // the next run removes the rest
+    close(descriptor);
     unlink(folder->folder_.c_str());
 }
 

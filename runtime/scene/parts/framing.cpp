@@ -27,8 +27,8 @@ double largest_depth(const Bounds& box, const glm::dvec3& across, const glm::dve
 
 /// The position across at which a box, all of which lies beyond `depth`, extends equally far to
 /// both sides of the image.
-double middle_place(const Bounds& box, const glm::dvec3& across, const glm::dvec3& ahead,
-                    double depth) {
+double middle_position(const Bounds& box, const glm::dvec3& across, const glm::dvec3& ahead,
+                       double depth) {
     const auto u = [&](int i) { return glm::dot(across, corner(box, i)); };
     double low = u(0), high = u(0);
     for (int i = 1; i < 8; ++i) {
@@ -62,8 +62,8 @@ glm::dmat3 view_axes(const ViewFrom& from) {
 glm::dvec3 framing_position(const Bounds& box, const glm::dmat3& axes, const glm::dvec2& slopes) {
     const double depth = std::min(largest_depth(box, axes[0], axes[2], slopes.x),
                                   largest_depth(box, axes[1], axes[2], slopes.y));
-    return axes * glm::dvec3(middle_place(box, axes[0], axes[2], depth),
-                             middle_place(box, axes[1], axes[2], depth), depth);
+    return axes * glm::dvec3(middle_position(box, axes[0], axes[2], depth),
+                             middle_position(box, axes[1], axes[2], depth), depth);
 }
 
 Bounds extent_along(const Bounds& box, const glm::dmat3& axes) {

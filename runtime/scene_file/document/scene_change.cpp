@@ -106,22 +106,22 @@ class Changer {
     }
 
     JsonValue& item(JsonValue& list, const PathStep& step) {
-        size_t place = step.item;
+        size_t index = step.item;
         if (!step.key.empty()) {
             const auto named = std::ranges::find_if(
                 list.items, [&](const JsonValue& item) { return name_in(item) == step.key; });
             const char* last = step.key.data() + step.key.size();
-            const auto [end, error] = std::from_chars(step.key.data(), last, place);
+            const auto [end, error] = std::from_chars(step.key.data(), last, index);
             if (named != list.items.end())
-                place = size_t(named - list.items.begin());
+                index = size_t(named - list.items.begin());
             else if (end != last || error != std::errc())
                 fail_to_find(step.key, names_in(list));
         }
-        if (place >= list.items.size())
-            fail(fmt::format("there is no {}[{}]: {} has {} items, counted from 0", here_, place,
+        if (index >= list.items.size())
+            fail(fmt::format("there is no {}[{}]: {} has {} items, counted from 0", here_, index,
                              here_, list.items.size()));
-        here_ += fmt::format("[{}]", place);
-        return list.items[place];
+        here_ += fmt::format("[{}]", index);
+        return list.items[index];
     }
 
     /// The name of an item; empty for items without one.

@@ -212,11 +212,11 @@ void name_parts(JsonValue& document) {
         member.value.names_items = member.value.type == JsonType::array;
 }
 
-std::string item_step(const JsonValue& list, size_t place) {
-    const auto& members = list.items[place].members;
+std::string item_step(const JsonValue& list, size_t index) {
+    const auto& members = list.items[index].members;
     const auto name = std::ranges::find(members, "name", &JsonMember::key);
     if (!list.names_items || name == members.end() || name->value.text.empty())
-        return fmt::format("[{}]", place);
+        return fmt::format("[{}]", index);
     const std::string& text = name->value.text;
     return "." + (text.find_first_of(".[") == text.npos ? text : quote(text));
 }

@@ -58,6 +58,6 @@ void forget_places(JsonValue& value);
 void name_parts(JsonValue& document);
 
 /// The continuation of a list's path for one of its items: "[2]", or ".ball" by its name.
-std::string item_step(const JsonValue& list, size_t place);
+std::string item_step(const JsonValue& list, size_t index);
 
 }  // namespace voxelume

@@ -18,7 +18,7 @@ constexpr double kMinSpaceTransmittance = 1e-250;
 
 /// One sample of a ray in a voxel. Samples of one voxel are in order, the nearest first.
 struct Sample {
-    uint64_t place;
+    uint64_t index;
     glm::dvec3 light;  ///< the light that it adds when nothing covers it
     double opacity;
     float depth;      ///< metres
@@ -72,7 +72,7 @@ class Assembly {
         if (object == 0 || !(opacity > 0)) return;
         const auto depth = float(number(layer, n, VXL_LAYER_DEPTH));
         put(column,
-            {place_of(column, word(layer, n, VXL_LAYER_STEP)), light, opacity, depth, object},
+            {index_of(column, word(layer, n, VXL_LAYER_STEP)), light, opacity, depth, object},
             1 - opacity, kMinTransmittance);
     }
 
@@ -146,7 +146,7 @@ class Assembly {
             const double covered = double(environment_.steps.absorption) * inside;
             const auto depth = float((k + 0.5) * double(environment_.steps.step) +
                                      double(environment_.near_depth));
-            put(column, {place_of(column, k), light, -std::expm1(-covered), depth, 0},
+            put(column, {index_of(column, k), light, -std::expm1(-covered), depth, 0},
                 std::exp(-covered), kMinSpaceTransmittance);
             sum += light;
             before += inside;
@@ -154,7 +154,7 @@ class Assembly {
         return sum;
     }
 
-    uint64_t place_of(uint64_t column, uint32_t k) const {
+    uint64_t index_of(uint64_t column, uint32_t k) const {
         return column + uint64_t(size_.x) * uint64_t(size_.y) * k;
     }
 
@@ -194,11 +194,11 @@ void assemble_layers(const std::vector<LayerRecords>& layers, const LayerEnviron
     Assembly assembly(environment, volume.frame);
     for (const LayerRecords& layer : layers) assembly.add(layer);
     std::vector<Sample> samples = assembly.take();
-    std::ranges::stable_sort(samples, {}, &Sample::place);
+    std::ranges::stable_sort(samples, {}, &Sample::index);
     for (size_t first = 0, end = 0; first < samples.size(); first = end) {
-        while (end < samples.size() && samples[end].place == samples[first].place) ++end;
+        while (end < samples.size() && samples[end].index == samples[first].index) ++end;
         const Sample voxel = merged(std::span(samples).subspan(first, end - first));
-        volume.indices.push_back(voxel.place);
+        volume.indices.push_back(voxel.index);
         volume.colors.emplace_back(voxel.light / voxel.opacity);
         volume.opacities.push_back(float(voxel.opacity));
         volume.depths.push_back(voxel.depth);

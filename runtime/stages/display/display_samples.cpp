@@ -11,7 +11,7 @@ namespace {
 
 /// The logarithm of the number of positions in a row of the squares from which samples are chosen:
 /// at least four positions for each sample, as long as choosing takes less time than lighting.
-int log2_of_places(uint32_t samples) {
+int log2_of_slots(uint32_t samples) {
     constexpr int kMin = 3, kMax = 5;
     int log2 = kMin;
     while (log2 < kMax && (1u << (2 * log2)) < 4 * samples) ++log2;
@@ -76,7 +76,7 @@ void DisplaySampleStage::light_facing(const LightRays& light_rays, const SpaceMe
         const uint32_t count = std::min(batch.stride, voxels - first);
         const auto aim = [&](uint32_t sample, uint32_t samples) {
             const SampleAim at{facing.points.axis, sample, samples, turn_of(sample),
-                               log2_of_places(samples_)};
+                               log2_of_slots(samples_)};
             aim_.launch_packets(count, ProbeViews{camera_, shape_of(world_), lattice_, views},
                                 facing.points, facing.shown.voxels.indices, sums_.normals, at,
                                 first, count, batch.stride, sums_.weights, batch.rays);

@@ -26,7 +26,7 @@ int lines_along(int axis, CoverAxes axes) {
 
 /// The position of line i of `count` across a voxel. No two have the same coordinate along any
 /// edge, so that outlines along the lattice's axes are sampled as evenly as others.
-glm::vec2 cover_place(int i, int count) {
+glm::vec2 cover_position(int i, int count) {
     constexpr double kGoldenRatio = 0.61803398874989485;
     const double down = (i + 0.5) * kGoldenRatio;
     return {(i + 0.5) / count, down - std::floor(down)};
@@ -265,7 +265,7 @@ void DisplayScanStage::scan_covers(const VolumeFrame& frame, const Pyramid& worl
         std::vector<Family> families;
         families.reserve(size_t(lines));
         for (int i = 0; i < lines; ++i)
-            families.push_back(family(axis, frame, world.frame, {1, 1}, cover_place(i, lines)));
+            families.push_back(family(axis, frame, world.frame, {1, 1}, cover_position(i, lines)));
         scan_families(world, families, batch, sink);
     }
     covers_ = false;

@@ -28,9 +28,9 @@ struct UnitedBricks {
     std::vector<uint32_t> first_of;   ///< for each field: the number of its first brick
 };
 
-uint32_t world_brick(const PlacedField& field, uint32_t place, const glm::ivec3& table) {
+uint32_t world_brick(const PlacedField& field, uint32_t brick, const glm::ivec3& table) {
     const glm::ivec3 own = field.grid.frame.bricks();
-    const int index = int(place);
+    const int index = int(brick);
     const glm::ivec3 at = field.first_brick +
                           glm::ivec3(index % own.x, index / own.x % own.y, index / (own.x * own.y));
     return uint32_t(at.x + table.x * (at.y + table.y * at.z));
@@ -61,12 +61,12 @@ UnitedBricks unite_bricks(const PlacedWorld& world, const std::map<uint64_t, Vox
     UnitedBricks united;
     united.first_of.push_back(0);
     for (const PlacedField& field : world.fields) {
-        const std::vector<uint32_t> places = field.grid.coordinates.read();
+        const std::vector<uint32_t> coordinates = field.grid.coordinates.read();
         const VoxelMarks& found = marks.at(field.version);
         for (uint32_t slot = 0; slot < field.grid.brick_count; ++slot)
             united.bricks_of.push_back(found.leaf_mask[slot] == 0
                                            ? kBrickOutside
-                                           : world_brick(field, places[slot], table));
+                                           : world_brick(field, coordinates[slot], table));
         united.first_of.push_back(uint32_t(united.bricks_of.size()));
     }
     const std::vector<uint32_t> base =

@@ -30,8 +30,8 @@ VoxelMarks mark_listed(const Device& device, const Program& program, const Brick
 
 /// Calls `visit` with the indices of a brick and its neighbours.
 template <class Visit>
-void for_neighbours(const glm::ivec3& table, uint32_t place, const Visit& visit) {
-    const int index = int(place);
+void for_neighbours(const glm::ivec3& table, uint32_t number, const Visit& visit) {
+    const int index = int(number);
     const glm::ivec3 at(index % table.x, index / table.x % table.y, index / (table.x * table.y));
     const glm::ivec3 low = glm::max(at - 1, glm::ivec3(0)), high = glm::min(at + 1, table - 1);
     for (int z = low.z; z <= high.z; ++z)
@@ -55,14 +55,14 @@ VoxelMarks mark_voxels(const Device& device, const Program& program, const Brick
 VoxelMarks mark_changed_voxels(const Device& device, const Program& program, const BrickGrid& grid,
                                const std::vector<uint32_t>& changed, VoxelMarks before) {
     std::vector<bool> reached(before.slots.size());
-    for (const uint32_t place : changed)
-        for_neighbours(grid.frame.bricks(), place, [&](size_t brick) { reached[brick] = true; });
+    for (const uint32_t number : changed)
+        for_neighbours(grid.frame.bricks(), number, [&](size_t brick) { reached[brick] = true; });
     const std::vector<uint32_t> coordinates = grid.coordinates.read();
     std::vector<uint64_t> leaf_mask(grid.brick_count);
     std::vector<uint32_t> counts(size_t(grid.brick_count) * 2), listed, moves;
     for (uint32_t slot = 0; slot < grid.brick_count; ++slot) {
-        const uint32_t place = coordinates[slot], old = before.slots[place];
-        if (reached[place]) {
+        const uint32_t number = coordinates[slot], old = before.slots[number];
+        if (reached[number]) {
             listed.push_back(slot);
             continue;
         }

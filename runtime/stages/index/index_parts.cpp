@@ -38,8 +38,8 @@ void list_chains(std::span<const PlacedField> fields, std::span<const uint32_t> 
         for (size_t i = 0; i < fields.size(); ++i) {
             const uint32_t slot = slots[i][brick];
             const FieldPlace& place = fields[i].place;
-            const bool is_idle = (place.link == FieldLink::least && slot == kBrickOutside) ||
-                                 (place.link == FieldLink::largest && slot == kBrickInside);
+            const bool is_idle = (place.link == FieldLink::minimum && slot == kBrickOutside) ||
+                                 (place.link == FieldLink::maximum && slot == kBrickInside);
             if (is_idle && !opens_bracket(fields, i)) continue;
             chains.entries.insert(
                 chains.entries.end(),

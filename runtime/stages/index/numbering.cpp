@@ -16,20 +16,20 @@ Numbering number_bricks(const GridFrame& frame, const BrickContents& contents) {
     Numbering numbers;
     numbers.sectors.resize(size_t(sector_table.x) * sector_table.y * sector_table.z);
     std::vector<bool> occupied(numbers.sectors.size());
-    std::vector<glm::uvec2> places(bricks);  // sector and bit of each brick
+    std::vector<glm::uvec2> slots(bricks);  // sector and bit of each brick
     for (size_t i = 0; i < bricks; ++i) {
         if (contents.leaf_masks[i] == 0) continue;  // the brick may hold nodes beyond all voxels
         const int index = int(contents.brick_numbers[i]);
-        places[i] = sector_and_bit({index % brick_table.x, index / brick_table.x % brick_table.y,
-                                    index / (brick_table.x * brick_table.y)},
-                                   sector_table);
-        occupied[places[i].x] = true;
+        slots[i] = sector_and_bit({index % brick_table.x, index / brick_table.x % brick_table.y,
+                                   index / (brick_table.x * brick_table.y)},
+                                  sector_table);
+        occupied[slots[i].x] = true;
     }
     const uint32_t blocks = number_sectors(sector_table, occupied, numbers.sectors);
     std::vector<uint32_t> brick_of_record(blocks * kRecordsPerSector, kBrickOutside);
     for (size_t i = 0; i < bricks; ++i)
         if (contents.leaf_masks[i] != 0)
-            brick_of_record[numbers.sectors[places[i].x] * kRecordsPerSector + places[i].y] =
+            brick_of_record[numbers.sectors[slots[i].x] * kRecordsPerSector + slots[i].y] =
                 uint32_t(i);
 
     numbers.starts.resize(bricks * (counted + 1));

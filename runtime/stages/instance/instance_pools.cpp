@@ -256,10 +256,10 @@ class Joiner {
             return;
         }
         const bool is_new = textures_.add(p.texture_key, p.textures.size());
-        const uint64_t place = textures_.place(p.texture_key, p.textures.size());
-        if (is_new) words(p.textures, place, joined_.textures);
+        const uint64_t first_word = textures_.first_word(p.texture_key, p.textures.size());
+        if (is_new) words(p.textures, first_word, joined_.textures);
         program_.kernel("append_instance_worn")
-            .launch(WorkItem::light, worn, uint32_t(worn), uint32_t(start), uint32_t(place),
+            .launch(WorkItem::light, worn, uint32_t(worn), uint32_t(start), uint32_t(first_word),
                     p.triangle_textures, joined_.triangle_textures);
     }
 

@@ -26,13 +26,13 @@ struct Level {
     int width, height;
     uint32_t wrap;
 
-    uint32_t texel_at(const glm::dvec2& place) const {
+    uint32_t texel_at(const glm::dvec2& uv) const {
         const auto number = [](double at, uint32_t how, int size) {
             return std::clamp(int(wrapped(at, how & VXL_TEXTURE_WRAP_MASK) * size), 0, size - 1);
         };
-        return texels[size_t(number(place.y, wrap >> VXL_TEXTURE_WRAP_V_SHIFT, height)) *
+        return texels[size_t(number(uv.y, wrap >> VXL_TEXTURE_WRAP_V_SHIFT, height)) *
                           size_t(width) +
-                      size_t(number(place.x, wrap, width))];
+                      size_t(number(uv.x, wrap, width))];
     }
 };
 
@@ -67,24 +67,24 @@ size_t EmissionMaps::map_of(size_t i) const {
     return offset == 0 ? 0 : uint32_t(texture + offset);
 }
 
-EmissionMaps::Places EmissionMaps::places(size_t i) const {
+EmissionMaps::Uvs EmissionMaps::uvs(size_t i) const {
     if (map_of(i) == 0) return {};
     const uint32_t* const worn = &worn_[i * VXL_WORN_WORDS];
     const uint32_t* const map =
         &textures_[worn[VXL_WORN_TEXTURE] - (VXL_MAP_COUNT - VXL_MAP_EMISSION) * VXL_MAP_WORDS +
-                   VXL_MAP_PLACES];
+                   VXL_MAP_TRANSFORM];
     const auto number = [&](int k) { return double(std::bit_cast<float>(map[k])); };
-    Places places;
+    Uvs found;
     for (size_t corner = 0; corner < 3; ++corner) {
         const double u = double(std::bit_cast<float>(worn[VXL_WORN_UVS + 2 * corner]));
         const double v = double(std::bit_cast<float>(worn[VXL_WORN_UVS + 2 * corner + 1]));
-        places[corner] = {number(0) * u + number(1) * v + number(2),
-                          number(3) * u + number(4) * v + number(5)};
+        found[corner] = {number(0) * u + number(1) * v + number(2),
+                         number(3) * u + number(4) * v + number(5)};
     }
-    return places;
+    return found;
 }
 
-glm::dvec3 EmissionMaps::mean(size_t i, const Places& part) const {
+glm::dvec3 EmissionMaps::mean(size_t i, const Uvs& part) const {
     const size_t map = map_of(i);
     if (map == 0) return glm::dvec3(1);
     constexpr int kRows = 6;  // the part is sampled at the middles of kRows^2 equal triangles

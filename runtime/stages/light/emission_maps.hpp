@@ -14,15 +14,15 @@ namespace voxelume {
 /// The emission maps of the triangles of a source, in the host's memory.
 class EmissionMaps {
   public:
-    using Places = std::array<glm::dvec2, 3>;  ///< UVs of a triangle's corners on its map
+    using Uvs = std::array<glm::dvec2, 3>;  ///< UVs of a triangle's corners on its map
 
     /// Reads the textures, unless the source has no maps.
     explicit EmissionMaps(const EmissiveSource& source);
 
     /// The UVs of the source's triangle number `i`; they don't matter for a triangle without a map.
-    Places places(size_t i) const;
+    Uvs uvs(size_t i) const;
     /// The mean of the map of triangle number `i` between three UVs; 1 without a map.
-    glm::dvec3 mean(size_t i, const Places& part) const;
+    glm::dvec3 mean(size_t i, const Uvs& part) const;
 
   private:
     /// The index of the first word of a triangle's map; 0: it has none.

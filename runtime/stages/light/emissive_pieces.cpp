@@ -66,9 +66,9 @@ class PieceFinder {
     std::vector<VoxelSurface> surfaces(const std::vector<ListedPiece>& pieces) {
         const auto count = uint32_t(pieces.size());
         const uint32_t stride = (count + 15) / 16 * 16;
-        const Buffer<ListedPiece> places(device_, "emissive surface", std::span(pieces));
+        const Buffer<ListedPiece> listed(device_, "emissive surface", std::span(pieces));
         const Buffer<float> found(device_, "emissive surface", size_t(stride) * 7);
-        surface_.launch_packets(count, shape_of(source_.pyramid), count, stride, places,
+        surface_.launch_packets(count, shape_of(source_.pyramid), count, stride, listed,
                                 source_.pyramid.fields, source_.pyramid.solids, found);
         const std::vector<float> values = found.read();
         std::vector<VoxelSurface> surfaces(count);
@@ -83,7 +83,8 @@ class PieceFinder {
     }
 
     /// Multiplies the light of smooth objects' pieces by the means of their emission maps.
-    void add_glow(const std::vector<ListedPiece>& listed, std::vector<EmissivePiece>& pieces) {
+    void apply_emission_maps(const std::vector<ListedPiece>& listed,
+                             std::vector<EmissivePiece>& pieces) {
         const SourceMeshes& sources = source_.pyramid.sources;
         if (!sources.has_maps) return;
         std::vector<size_t> numbers;
@@ -92,24 +93,24 @@ class PieceFinder {
         if (numbers.empty()) return;
         const auto count = uint32_t(numbers.size());
         const uint32_t stride = (count + 15) / 16 * 16;
-        std::vector<float> places(size_t(stride) * 7);
+        std::vector<float> points(size_t(stride) * 7);
         std::vector<uint32_t> objects(stride);
         for (uint32_t i = 0; i < count; ++i) {
             const EmissivePiece& piece = pieces[numbers[i]];
             objects[i] = source_.instance.value_or(listed[numbers[i]][3] & VXL_OBJECT_MASK);
             for (int axis = 0; axis < 3; ++axis) {
-                places[size_t(axis) * stride + i] =
+                points[size_t(axis) * stride + i] =
                     float(piece.position[axis] / source_.pyramid.frame.voxel_edge[axis]);
-                places[size_t(3 + axis) * stride + i] = float(piece.normal[axis]);
+                points[size_t(3 + axis) * stride + i] = float(piece.normal[axis]);
             }
-            places[size_t(6) * stride + i] = float(std::sqrt(piece.area));
+            points[size_t(6) * stride + i] = float(std::sqrt(piece.area));
         }
         const Buffer<float> factors(device_, "emissive surface", size_t(stride) * 3);
         Program(device_, "emission_maps.cl", defines_)
             .kernel("mean_emission_maps")
             .launch_packets(count, shape_of(source_.pyramid), count, stride,
                             Buffer<uint32_t>(device_, "emissive surface", std::span(objects)),
-                            Buffer<float>(device_, "emissive surface", std::span(places)),
+                            Buffer<float>(device_, "emissive surface", std::span(points)),
                             sources.objects, sources.words, factors);
         const std::vector<float> found = factors.read();
         for (uint32_t i = 0; i < count; ++i)
@@ -121,20 +122,20 @@ class PieceFinder {
     std::vector<ListedPiece> list_all(bool by_voxel) {
         const uint32_t count = list(by_voxel, 0, {});
         if (count == 0) return {};
-        const Buffer<ListedPiece> places(device_, "emissive surface", count);
-        list(by_voxel, count, places);
-        return places.read();
+        const Buffer<ListedPiece> listed(device_, "emissive surface", count);
+        list(by_voxel, count, listed);
+        return listed.read();
     }
 
     /// Counts the pieces or voxels, and lists the first `capacity` of them. Returns their number.
-    uint32_t list(bool by_voxel, uint32_t capacity, const Buffer<ListedPiece>& places) {
+    uint32_t list(bool by_voxel, uint32_t capacity, const Buffer<ListedPiece>& listed) {
         const glm::ivec3 sectors = source_.pyramid.frame.sectors();
         const uint32_t bricks = uint32_t(sectors.x * sectors.y * sectors.z) * 64;
         Buffer<uint32_t> found(device_, "emissive surface", 1);
         found.fill(0);
         list_.launch(WorkItem::light, bricks, bricks, source_.pyramid, source_.first_sector,
                      emissive_objects_, emissive_materials_, uint32_t(by_voxel), capacity, found,
-                     places);
+                     listed);
         return found.read_one(0);
     }
 
@@ -223,7 +224,7 @@ PiecesOfObjects pieces_of_source(const Device& device, const Features& features,
         piece.emission = source.emission[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK];
         pieces.push_back(piece);
     }
-    finder.add_glow(listed, pieces);
+    finder.apply_emission_maps(listed, pieces);
     for (size_t i = 0; i < listed.size(); ++i)
         if (pieces[i].area > 0 && pieces[i].emission != glm::dvec3(0))
             found[listed[i][3] & VXL_OBJECT_MASK].push_back(pieces[i]);

@@ -80,7 +80,7 @@ glm::dvec3 area_vector(const Triangle& t) {
 /// A triangle to divide, and its UVs on its map.
 struct Part {
     Triangle corners;
-    EmissionMaps::Places places;
+    EmissionMaps::Uvs uvs;
 };
 
 /// The values that all parts of a triangle share.
@@ -97,7 +97,7 @@ void add_parts(const Part& part, const Whole& whole, std::vector<EmissivePiece>&
     const double area = glm::length(area_vector(t));
     if (area <= whole.largest) {
         EmissivePiece piece = whole.piece;
-        piece.emission *= whole.maps.mean(whole.number, part.places);
+        piece.emission *= whole.maps.mean(whole.number, part.uvs);
         if (piece.emission == glm::dvec3(0)) return;
         piece.position = (t[0] + t[1] + t[2]) / 3.0;
         piece.area = area;
@@ -109,11 +109,11 @@ void add_parts(const Part& part, const Whole& whole, std::vector<EmissivePiece>&
         if (glm::distance(t[i], t[(i + 1) % 3]) > glm::distance(t[longest], t[(longest + 1) % 3]))
             longest = i;
     const size_t i = longest, j = (longest + 1) % 3, k = (longest + 2) % 3;
-    const EmissionMaps::Places& p = part.places;
+    const EmissionMaps::Uvs& p = part.uvs;
     const glm::dvec3 middle = (t[i] + t[j]) * 0.5;
-    const glm::dvec2 place = (p[i] + p[j]) * 0.5;
-    add_parts({{t[i], middle, t[k]}, {p[i], place, p[k]}}, whole, pieces);
-    add_parts({{middle, t[j], t[k]}, {place, p[j], p[k]}}, whole, pieces);
+    const glm::dvec2 middle_uv = (p[i] + p[j]) * 0.5;
+    add_parts({{t[i], middle, t[k]}, {p[i], middle_uv, p[k]}}, whole, pieces);
+    add_parts({{middle, t[j], t[k]}, {middle_uv, p[j], p[k]}}, whole, pieces);
 }
 
 void add_mesh(const EmissiveSource& source, const EmissionMaps& maps, const EmissiveMesh& mesh,
@@ -134,7 +134,7 @@ void add_mesh(const EmissiveSource& source, const EmissionMaps& maps, const Emis
         whole.piece.emission = source.emission[mesh.materials[i]];
         if (!(glm::length(facing) > 0) || whole.piece.emission == glm::dvec3(0)) continue;
         whole.piece.normal = glm::normalize(facing) * outwards;
-        const Part part{triangles[i], maps.places(mesh.numbers[i])};
+        const Part part{triangles[i], maps.uvs(mesh.numbers[i])};
         add_parts(part, whole, pieces);
         if (closed) continue;
         whole.piece.normal = -whole.piece.normal;

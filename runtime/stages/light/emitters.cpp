@@ -133,9 +133,9 @@ std::vector<EmitterRecord> records_of(const std::vector<WeightedEmitter>& emitte
 std::vector<uint32_t> hash_table(const std::vector<EmitterRecord>& records) {
     std::vector<uint32_t> table(std::bit_ceil(2 * records.size()), VXL_NO_EMITTER);
     for (uint32_t i = 0; i < records.size(); ++i) {
-        size_t place = emitter_hash(records[i].voxel, records[i].instance) % table.size();
-        while (table[place] != VXL_NO_EMITTER) place = (place + 1) % table.size();
-        table[place] = i;
+        size_t slot = emitter_hash(records[i].voxel, records[i].instance) % table.size();
+        while (table[slot] != VXL_NO_EMITTER) slot = (slot + 1) % table.size();
+        table[slot] = i;
     }
     return table;
 }
@@ -219,13 +219,13 @@ EmitterTable build_emitters(const Device& device, const Features& features, cons
     std::vector<WeightedEmitter> emitters = emitters_of(device, features, scene, world);
     if (emitters.empty()) return table;
     limit_emitters(emitters);
-    const double share = features.sky_rays != VXL_EMITTERS_NONE ? kEmittersBesideSky : 1;
+    const double share = features.sky_rays != VXL_EMITTERS_NONE ? kEmitterChanceWithSky : 1;
     const std::vector<EmitterRecord> records = records_of(emitters, share);
-    const std::vector<uint32_t> places = hash_table(records);
+    const std::vector<uint32_t> slots = hash_table(records);
     table.count = uint32_t(records.size());
-    table.slots = uint32_t(places.size());
+    table.slots = uint32_t(slots.size());
     table.records = Buffer<EmitterRecord>(device, "emitters", std::span(records));
-    table.table = Buffer<uint32_t>(device, "emitters", std::span(places));
+    table.table = Buffer<uint32_t>(device, "emitters", std::span(slots));
     if (features.instances) {
         const std::vector<EmitterFrame> frames = frames_of(scene, world);
         table.frames = Buffer<EmitterFrame>(device, "emitters", std::span(frames));

@@ -18,7 +18,7 @@ namespace voxelume {
 inline constexpr size_t kMaxEmitters = size_t{1} << 20;
 
 /// The share of rays to light that go to emitters if other rays go to a sky.
-inline constexpr float kEmittersBesideSky = 0.5f;
+inline constexpr float kEmitterChanceWithSky = 0.5f;
 
 /// The main memory for listing `voxels` voxels of sources that have `listed` in all.
 double emitter_host_bytes(size_t voxels, size_t listed);

@@ -49,10 +49,10 @@ std::vector<uint32_t> tiles_through(const BeamGrid& grid, const glm::dvec3& size
         glm::dvec2 minimum(INFINITY), maximum(-INFINITY);
         for (int corner = 0; corner < 8; ++corner) {
             const glm::ivec3 far(corner & 1, corner >> 1 & 1, corner >> 2);
-            const glm::dvec3 place = glm::min(glm::dvec3(kSectorSize * (sector + far)), size);
-            const double up = place[grid.axis] - double(grid.far_side);
+            const glm::dvec3 point = glm::min(glm::dvec3(kSectorSize * (sector + far)), size);
+            const double up = point[grid.axis] - double(grid.far_side);
             const glm::dvec2 met =
-                (glm::dvec2(place[b], place[c]) - slope * up) / (1 - double(grid.converging) * up);
+                (glm::dvec2(point[b], point[c]) - slope * up) / (1 - double(grid.converging) * up);
             minimum = glm::min(minimum, met), maximum = glm::max(maximum, met);
         }
         const double edge = 4 * double(grid.edge);
@@ -82,11 +82,11 @@ BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale
     // light.
     glm::dvec3 low(0), high(extent), steepest(0);
     for (int corner = 0; corner < 8; ++corner) {
-        glm::dvec3 place(corner & 1 ? extent.x : 0, corner & 2 ? extent.y : 0,
+        glm::dvec3 point(corner & 1 ? extent.x : 0, corner & 2 ? extent.y : 0,
                          corner & 4 ? extent.z : 0);
-        place[axis] = near_side;
-        const glm::dvec3 to_light = way(light, place), slope = to_light / to_light[axis];
-        const glm::dvec3 met = place + slope * (far_side - near_side);
+        point[axis] = near_side;
+        const glm::dvec3 to_light = way(light, point), slope = to_light / to_light[axis];
+        const glm::dvec3 met = point + slope * (far_side - near_side);
         low = glm::min(low, met), high = glm::max(high, met);
         steepest = glm::max(steepest, glm::abs(slope));
     }

@@ -11,7 +11,7 @@ namespace voxelume {
 namespace {
 
 /// The position and the normal of a piece, in metres.
-using Place = std::array<double, 6>;
+using Coordinates = std::array<double, 6>;
 
 class Division {
   public:
@@ -22,7 +22,7 @@ class Division {
         if (count == 1) return light_samples.push_back(light_sample_of(pieces));
         const size_t axis = widest_axis(pieces);
         std::ranges::stable_sort(pieces, [&](const EmissivePiece& a, const EmissivePiece& b) {
-            return place_of(a)[axis] < place_of(b)[axis];
+            return coordinates_of(a)[axis] < coordinates_of(b)[axis];
         });
         const size_t low_count = count / 2;
         const size_t cut = cut_at(pieces, double(low_count) / double(count), low_count, count);
@@ -31,18 +31,18 @@ class Division {
     }
 
   private:
-    Place place_of(const EmissivePiece& piece) const {
+    Coordinates coordinates_of(const EmissivePiece& piece) const {
         const glm::dvec3 n = piece.normal * metres_per_normal_;
         return {piece.position.x, piece.position.y, piece.position.z, n.x, n.y, n.z};
     }
 
     size_t widest_axis(std::span<const EmissivePiece> pieces) const {
-        Place low = place_of(pieces[0]), high = low;
+        Coordinates low = coordinates_of(pieces[0]), high = low;
         for (const EmissivePiece& piece : pieces) {
-            const Place place = place_of(piece);
-            for (size_t i = 0; i < place.size(); ++i) {
-                low[i] = std::min(low[i], place[i]);
-                high[i] = std::max(high[i], place[i]);
+            const Coordinates coordinates = coordinates_of(piece);
+            for (size_t i = 0; i < coordinates.size(); ++i) {
+                low[i] = std::min(low[i], coordinates[i]);
+                high[i] = std::max(high[i], coordinates[i]);
             }
         }
         size_t widest = 0;
@@ -65,21 +65,21 @@ class Division {
 
     LightSample light_sample_of(std::span<const EmissivePiece> pieces) const {
         LightSample light_sample;
-        Place mean{};
+        Coordinates mean{};
         for (const EmissivePiece& piece : pieces) {
-            const Place place = place_of(piece);
-            for (size_t i = 0; i < mean.size(); ++i) mean[i] += place[i] * piece.area;
+            const Coordinates coordinates = coordinates_of(piece);
+            for (size_t i = 0; i < mean.size(); ++i) mean[i] += coordinates[i] * piece.area;
             light_sample.area += piece.area;
             light_sample.power += piece.emission * piece.area;
         }
         const EmissivePiece* best = nullptr;
         double minimum = INFINITY;
         for (const EmissivePiece& piece : pieces) {
-            const Place place = place_of(piece);
+            const Coordinates coordinates = coordinates_of(piece);
             double squared = 0;
             for (size_t i = 0; i < mean.size(); ++i)
-                squared += (place[i] - mean[i] / light_sample.area) *
-                           (place[i] - mean[i] / light_sample.area);
+                squared += (coordinates[i] - mean[i] / light_sample.area) *
+                           (coordinates[i] - mean[i] / light_sample.area);
             const bool is_better = !best || (piece.is_exact && !best->is_exact) ||
                                    (piece.is_exact == best->is_exact && squared < minimum);
             if (!is_better) continue;

@@ -21,7 +21,7 @@ void copy(const glm::vec3& from, float (&to)[3]) {
 }
 
 // The positions of hits are rounded to this part of the longest way through the world, or less.
-constexpr double kPlaceRounding = 0x1p-20;
+constexpr double kPositionRounding = 0x1p-20;
 
 /// Sets a checker. A face on the border of two blocks shows the upper block everywhere, wherever
 /// rounding puts its points.
@@ -34,7 +34,7 @@ void set_checker(const Checker& checker, const GridFrame& world, MaterialRecord&
         // Two blocks make a period. Far from the origin a float would lose whole blocks to
         // rounding.
         const double shift = (world.origin[a] - checker.origin[a]) / checker.size[a];
-        const double rounding = kPlaceRounding * longest * record.checker_scale[a];
+        const double rounding = kPositionRounding * longest * record.checker_scale[a];
         record.checker_shift[a] = float(std::fmod(shift, 2.0) + rounding);
     }
 }

@@ -32,7 +32,7 @@ bool has_equal_textures(const Mesh& a, const Mesh& b) {
     return std::ranges::equal(a.textures, b.textures, [](const Texture& s, const Texture& t) {
         return s.image == t.image && s.wrap_u == t.wrap_u && s.wrap_v == t.wrap_v &&
                std::ranges::equal(s.maps, t.maps, [](const TextureMap& m, const TextureMap& n) {
-                   return m.texture == n.texture && m.places == n.places;
+                   return m.texture == n.texture && m.transform == n.transform;
                });
     });
 }
@@ -101,7 +101,7 @@ JoinedSources join_source_meshes(const Device& device, std::span<const Mesh* con
     JoinedSources joined{allocate_source_words(device, sizes), {}};
     struct Textures {
         uint32_t start = 0;
-        std::vector<uint32_t> places;
+        std::vector<uint32_t> first_words;
     };
     std::map<uint64_t, Textures> textures;
     size_t end = 0;
@@ -110,7 +110,7 @@ JoinedSources join_source_meshes(const Device& device, std::span<const Mesh* con
         if (!is_new) continue;
         const auto written =
             write_textures(*meshes[i], joined.words, end, TextureAlpha::is_ignored);
-        found->second = {uint32_t(end), written.places};
+        found->second = {uint32_t(end), written.first_words};
         end += texture_words(sizes[i].paint);
         joined.has_maps |= sizes[i].paint.mapped > 0;
     }
@@ -121,12 +121,12 @@ JoinedSources join_source_meshes(const Device& device, std::span<const Mesh* con
     };
     for (size_t i = 0; i < meshes.size(); ++i) {
         const Textures& own = textures.at(sizes[i].texture_key);
-        SourcePlaces places;
-        places.textures = own.start;
-        places.nodes = append(tree_words(*meshes[i]));
-        places.triangles = append(corner_words(*meshes[i]));
-        places.worn = append(worn_words(*meshes[i], own.places));
-        joined.places.push_back(places);
+        SourceOffsets offsets;
+        offsets.textures = own.start;
+        offsets.nodes = append(tree_words(*meshes[i]));
+        offsets.triangles = append(corner_words(*meshes[i]));
+        offsets.worn = append(worn_words(*meshes[i], own.first_words));
+        joined.offsets.push_back(offsets);
     }
     return joined;
 }

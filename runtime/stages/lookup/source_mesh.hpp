@@ -12,7 +12,7 @@
 namespace voxelume {
 
 /// The position of a mesh in the words of SourceMeshes, as SourceRecord has it.
-struct SourcePlaces {
+struct SourceOffsets {
     uint32_t nodes = VXL_NO_SOURCE, triangles = 0, worn = 0, textures = 0;
 };
 
@@ -30,7 +30,7 @@ Buffer<uint32_t> allocate_source_words(const Device& device, std::span<const Sou
 /// The words of joined meshes, and the position of each.
 struct JoinedSources {
     Buffer<uint32_t> words;
-    std::vector<SourcePlaces> places;
+    std::vector<SourceOffsets> offsets;
     bool has_maps = false;
 };
 

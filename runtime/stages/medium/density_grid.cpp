@@ -23,15 +23,15 @@ constexpr size_t kBricksAtOnce = 64;
 class ConstantTable {
   public:
     uint32_t word(float density) {
-        const auto place = uint32_t(values_.size());
-        const auto [entry, added] = places_.try_emplace(std::bit_cast<uint32_t>(density), place);
+        const auto number = uint32_t(values_.size());
+        const auto [entry, added] = numbers_.try_emplace(std::bit_cast<uint32_t>(density), number);
         if (added) values_.push_back(density);
         return VXL_DENSITY_CONSTANT | 4u << VXL_DENSITY_SIZE_SHIFT | entry->second;
     }
     const std::vector<float>& values() const { return values_; }
 
   private:
-    std::map<uint32_t, uint32_t> places_;
+    std::map<uint32_t, uint32_t> numbers_;
     std::vector<float> values_;
 };
 

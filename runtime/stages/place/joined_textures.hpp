@@ -14,22 +14,22 @@ class JoinedTextures {
     /// Adds a grid's textures, which have `words` words, unless equal ones were added before.
     /// Returns true if it did.
     bool add(uint64_t key, uint64_t words) {
-        if (words == 0 || !places_.try_emplace({key, words}, words_).second) return false;
+        if (words == 0 || !first_words_.try_emplace({key, words}, words_).second) return false;
         words_ += words;
         return true;
     }
 
     /// The position of textures that were added; 0 for textures without words.
-    uint64_t place(uint64_t key, uint64_t words) const {
-        const auto found = places_.find({key, words});
-        return found == places_.end() ? 0 : found->second;
+    uint64_t first_word(uint64_t key, uint64_t words) const {
+        const auto found = first_words_.find({key, words});
+        return found == first_words_.end() ? 0 : found->second;
     }
 
     /// The number of 32-bit words of all textures.
     uint64_t words() const { return words_; }
 
   private:
-    std::map<std::pair<uint64_t, uint64_t>, uint64_t> places_;  ///< by key and number of words
+    std::map<std::pair<uint64_t, uint64_t>, uint64_t> first_words_;  ///< by key and number of words
     uint64_t words_ = 0;
 };
 

@@ -208,7 +208,7 @@ class Placer::State {
         if (bricks.empty()) return;
         bricks_->clear(bricks);
         const glm::ivec3 table = world_.frame.bricks();
-        std::vector<bool> painting(brick_places(world_.frame));
+        std::vector<bool> painting(brick_slots(world_.frame));
         for (const uint32_t brick : bricks) painting[brick] = true;
         Painter* smooth = nullptr;
         for (const PlacedObject* object : painting_order(objects)) {

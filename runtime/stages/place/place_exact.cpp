@@ -93,11 +93,11 @@ void append_object(const Device& device, const PlacedObject& object, const Buffe
     if (!grid.textures.empty()) {
         const uint64_t words = grid.textures.size();
         const bool is_new = joined.textures.add(grid.texture_key, words);
-        const auto place = uint32_t(joined.textures.place(grid.texture_key, words));
-        if (is_new) append(uint32_t(words), place, grid.textures, world.textures);
+        const auto first_word = uint32_t(joined.textures.first_word(grid.texture_key, words));
+        if (is_new) append(uint32_t(words), first_word, grid.textures, world.textures);
         const uint32_t worn = triangles * VXL_WORN_WORDS;
         program.kernel("append_worn")
-            .launch(WorkItem::light, worn, worn, joined.triangles * VXL_WORN_WORDS, place,
+            .launch(WorkItem::light, worn, worn, joined.triangles * VXL_WORN_WORDS, first_word,
                     grid.triangle_textures, world.triangle_textures);
     }
     append(records * VXL_SOLID_WORDS, joined.solid_records * VXL_SOLID_WORDS, grid.solids,

@@ -54,9 +54,9 @@ int half_diagonal(const GridFrame& frame) {
 /// object's units. In cells larger than the world's, nodes within the band may be half a diagonal
 /// from the next corner.
 int near_threshold(const PlacementMap& map, const GridFrame& grid) {
-    constexpr double kMost = kBandVoxels * kDistanceUnitsPerVoxel;
-    const double band = kMost / map.distance_scale;
-    const double in_cell = std::min(kMost, band + half_diagonal(grid));
+    constexpr double kMaxDistance = kBandVoxels * kDistanceUnitsPerVoxel;
+    const double band = kMaxDistance / map.distance_scale;
+    const double in_cell = std::min(kMaxDistance, band + half_diagonal(grid));
     return static_cast<int>(std::min(std::ceil(std::max(band, in_cell)), 32767.0));
 }
 

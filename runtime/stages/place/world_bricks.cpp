@@ -81,20 +81,21 @@ Kernel WorldBricks::kernel(const char* name) const {
 std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& brick_numbers,
                                          const std::vector<uint8_t>& states) {
     std::vector<uint32_t> gaps, added, stored;
-    for (const uint32_t place : brick_numbers) {
-        const bool was_stored = slots_[place] < kBrickInside, is_stored = states[place] == kSurface;
-        if (is_stored) stored.push_back(place);
-        if (was_stored && !is_stored) gaps.push_back(slots_[place]);
-        if (!was_stored && is_stored) added.push_back(place);
-        if (!is_stored) slots_[place] = states[place] == kFull ? kBrickInside : kBrickOutside;
+    for (const uint32_t number : brick_numbers) {
+        const bool was_stored = slots_[number] < kBrickInside,
+                   is_stored = states[number] == kSurface;
+        if (is_stored) stored.push_back(number);
+        if (was_stored && !is_stored) gaps.push_back(slots_[number]);
+        if (!was_stored && is_stored) added.push_back(number);
+        if (!is_stored) slots_[number] = states[number] == kFull ? kBrickInside : kBrickOutside;
     }
-    for (const uint32_t place : added) {
+    for (const uint32_t number : added) {
         if (gaps.empty()) {
-            slots_[place] = uint32_t(coordinates_.size());
-            coordinates_.push_back(place);
+            slots_[number] = uint32_t(coordinates_.size());
+            coordinates_.push_back(number);
         } else {
-            slots_[place] = gaps.back();
-            coordinates_[gaps.back()] = place;
+            slots_[number] = gaps.back();
+            coordinates_[gaps.back()] = number;
             gaps.pop_back();
         }
     }
@@ -132,7 +133,7 @@ void WorldBricks::fill_gaps(const std::vector<uint32_t>& gaps) {
 void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
     std::vector<uint32_t> slots;
     slots.reserve(brick_numbers.size());
-    for (const uint32_t place : brick_numbers) slots.push_back(slots_[place]);
+    for (const uint32_t number : brick_numbers) slots.push_back(slots_[number]);
     const auto parts = uint32_t(slots.size() * 64);
     if (parts == 0) return;
     kernel("clear_bricks")

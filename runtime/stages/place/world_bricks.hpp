@@ -35,7 +35,7 @@ class WorldBricks {
     /// Clears the contents of stored bricks; they stay stored.
     void clear(const std::vector<uint32_t>& brick_numbers);
 
-    uint32_t slot(uint32_t place) const { return slots_[place]; }
+    uint32_t slot(uint32_t brick_number) const { return slots_[brick_number]; }
 
   private:
     Kernel kernel(const char* name) const;

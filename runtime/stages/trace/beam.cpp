@@ -22,13 +22,13 @@ class LeafMasks {
         const glm::ivec3 size = sectors_ * kBricksPerSector;
         if (mask == 0 || b.x < 0 || b.y < 0 || b.z < 0) return;
         if (b.x >= size.x || b.y >= size.y || b.z >= size.z) return;
-        const glm::uvec2 place = sector_and_bit(b, sectors_);
-        uint32_t& block = block_of_[place.x];
+        const glm::uvec2 slot = sector_and_bit(b, sectors_);
+        uint32_t& block = block_of_[slot.x];
         if (block == kNone) {
             block = uint32_t(blocks_.size());
             blocks_.emplace_back();
         }
-        blocks_[block][place.y] |= mask;
+        blocks_[block][slot.y] |= mask;
     }
 
     DilatedOccupancy dilated_occupancy(const Device& device) const {

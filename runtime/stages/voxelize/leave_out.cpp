@@ -42,11 +42,11 @@ class Nodes {
             slots_[size_t(brick.x) +
                    size_t(bricks_.x) * (size_t(brick.y) + size_t(bricks_.y) * size_t(brick.z))];
         if (slot >= kBrickInside) return false;
-        const size_t place =
+        const size_t index =
             slot * kVoxelsPerBrick + size_t(in.x + kBrickSize * (in.y + kBrickSize * in.z));
-        if (is_near_[place]) return false;
-        is_near_[place] = true;
-        distances_[place] = int16_t(std::min(distances_[place] + rise, 32767));
+        if (is_near_[index]) return false;
+        is_near_[index] = true;
+        distances_[index] = int16_t(std::min(distances_[index] + rise, 32767));
         return true;
     }
 
@@ -64,8 +64,8 @@ std::vector<glm::ivec3> raise_around(const std::vector<glm::ivec3>& from, int ri
     std::vector<glm::ivec3> raised;
     for (const glm::ivec3& node : from)
         for (int i = 0; i < 27; ++i) {
-            const glm::ivec3 beside = node + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
-            if (nodes.raise(beside, rise)) raised.push_back(beside);
+            const glm::ivec3 neighbour = node + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+            if (nodes.raise(neighbour, rise)) raised.push_back(neighbour);
         }
     return raised;
 }

@@ -70,11 +70,11 @@ Buffer<uint32_t> upload(const VoxelizeJob& job, const char* name,
 
 }  // namespace
 
-Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t places) {
+Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t frame_bricks) {
     Windings w;
     w.numbers = allocate_distances(device, "winding numbers", stored);
     w.row_starts = Buffer<int16_t>(device, "crossing totals", 256 * bins);
-    w.passing = Buffer<int16_t>(device, "passing windings", places);
+    w.passing = Buffer<int16_t>(device, "passing windings", frame_bricks);
     return w;
 }
 

@@ -18,7 +18,7 @@ struct JoinedParts {
 
 /// Joins parts to those before them, and drops those that decide nothing.
 void join(JoinedParts& all, JoinedParts next, FieldLink link) {
-    const bool is_union = link == FieldLink::least;
+    const bool is_union = link == FieldLink::minimum;
     const bool is_idle = all.parts.empty() && all.is_full != is_union;
     const bool decides_all = next.parts.empty() && next.is_full == is_union;
     if (link == FieldLink::none || is_idle || decides_all)

@@ -46,10 +46,10 @@ struct Windings {
 /// VXL_WINDING_PARAMETERS of kernels.
 void bind(KernelArguments& to, const Windings& windings);
 
-/// Allocates winding numbers for `stored` bricks and `bins` with triangles, in a frame of `places`
-/// bricks. The other two functions allocate the rows of inside points of stored bricks, and the
-/// shapes of triangles.
-Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t places);
+/// Allocates winding numbers for `stored` bricks and `bins` with triangles, in a frame of
+/// `frame_bricks` bricks. The other two functions allocate the rows of inside points of stored
+/// bricks, and the shapes of triangles.
+Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t frame_bricks);
 Buffer<uint16_t> allocate_inside(const Device& device, size_t stored);
 Buffer<float> allocate_shapes(const Device& device, size_t triangles);
 

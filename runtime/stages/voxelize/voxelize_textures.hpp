@@ -32,7 +32,7 @@ enum class TextureAlpha : uint8_t { counts, is_ignored };
 
 /// Written textures: the position of each, from the start of their words, and a hash of all.
 struct WrittenTextures {
-    std::vector<uint32_t> places;
+    std::vector<uint32_t> first_words;
     uint64_t hash = 0;
 };
 
@@ -41,9 +41,9 @@ struct WrittenTextures {
 WrittenTextures write_textures(const Mesh& mesh, Buffer<uint32_t>& words, size_t start,
                                TextureAlpha alpha);
 
-/// The textures on a mesh's triangles, in the words of shared/texture.h; `places` are the positions
-/// of textures.
-std::vector<uint32_t> worn_words(const Mesh& mesh, const std::vector<uint32_t>& places);
+/// The textures on a mesh's triangles, in the words of shared/texture.h; `first_words` are the
+/// positions of textures.
+std::vector<uint32_t> worn_words(const Mesh& mesh, const std::vector<uint32_t>& first_words);
 
 /// Stores the textures of exact voxels' triangles in the job's grid for rays. Meshes without
 /// textures get nothing. Throws Error::limit for more texels than a device's buffer holds.

@@ -26,8 +26,8 @@ constexpr int kFirstOfReferences = 1 << 20;
 
 /// Each reference has at least this many samples, and twice as many as any row, but no more than a
 /// scene may have.
-constexpr int kLeastOfReferences = 64;
-constexpr int kMostSamples = 4096;
+constexpr int kMinReferenceSamples = 64;
+constexpr int kMaxSamples = 4096;
 
 Scene cornell_scene(glm::ivec2 size) {
     Scene scene = parse_scene(cornell_text(), "cornell.json", {});
@@ -68,9 +68,9 @@ struct Shown {
     }
 };
 
-References references_of(Shown& shown, const GlobalScene& scene, int most) {
+References references_of(Shown& shown, const GlobalScene& scene, int max_samples) {
     if (scene.references) return *scene.references;
-    const int count = std::min(std::max(kLeastOfReferences, 2 * most), kMostSamples);
+    const int count = std::min(std::max(kMinReferenceSamples, 2 * max_samples), kMaxSamples);
     return {shown.image(kFirstOfReferences, count), shown.image(2 * kFirstOfReferences, count)};
 }
 

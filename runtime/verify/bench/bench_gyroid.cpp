@@ -37,7 +37,7 @@ class TetrahedraMarch {
         for (int z = 0; z < points_; ++z)
             for (int y = 0; y < points_; ++y)
                 for (int x = 0; x < points_; ++x)
-                    values_.push_back(gyroid_value(place(number({x, y, z}))));
+                    values_.push_back(gyroid_value(position(number({x, y, z}))));
     }
 
     Mesh mesh() {
@@ -52,7 +52,7 @@ class TetrahedraMarch {
         return uint32_t((p.z * points_ + p.y) * points_ + p.x);
     }
 
-    glm::dvec3 place(uint32_t number) const {
+    glm::dvec3 position(uint32_t number) const {
         const int n = int(number);
         const glm::dvec3 index(n % points_, n / points_ % points_, n / points_ / points_);
         return index * step_ - kReach;
@@ -89,7 +89,7 @@ class TetrahedraMarch {
     void add(uint32_t inside, glm::uvec3 triangle) {
         const auto corner = [&](int i) { return glm::dvec3(mesh_.positions[triangle[i]]); };
         const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
-        if (glm::dot(normal, place(inside) - corner(0)) > 0) std::swap(triangle.y, triangle.z);
+        if (glm::dot(normal, position(inside) - corner(0)) > 0) std::swap(triangle.y, triangle.z);
         mesh_.triangles.push_back(triangle);
     }
 
@@ -97,7 +97,7 @@ class TetrahedraMarch {
         const auto [found, is_new] =
             vertices_.try_emplace({inside, outside}, uint32_t(mesh_.positions.size()));
         if (is_new) {
-            glm::dvec3 a = place(inside), b = place(outside);
+            glm::dvec3 a = position(inside), b = position(outside);
             for (int i = 0; i < 30; ++i) {
                 const glm::dvec3 middle = (a + b) / 2.0;
                 (gyroid_value(middle) < 0 ? a : b) = middle;

@@ -47,7 +47,7 @@ class EmptyRuns {
             const Waiting run = waiting_.back();
             waiting_.pop_back();
             for (const glm::ivec2 step : {glm::ivec2{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-                reach_beside(runs_[run.number], run.y + step.x, run.z + step.y);
+                reach_neighbour(runs_[run.number], run.y + step.x, run.z + step.y);
         }
     }
 
@@ -92,7 +92,7 @@ class EmptyRuns {
         waiting_.push_back({number, y, z});
     }
 
-    void reach_beside(const Run run, int y, int z) {
+    void reach_neighbour(const Run run, int y, int z) {
         if (y < 0 || z < 0 || y >= size_.y || z >= size_.z) return;
         for (size_t i = starts_[row_of(y, z)]; i < starts_[row_of(y, z) + 1]; ++i)
             if (runs_[i].first < run.last && run.first < runs_[i].last) reach(i, y, z);

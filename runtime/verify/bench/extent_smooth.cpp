@@ -188,12 +188,12 @@ class SurfaceSum {
                 std::vector<double> zeros;
                 add_zeros(column[0], column[1], column[2], zeros);
                 for (const double zero : zeros) {
-                    glm::dvec3 gradient, place;
+                    glm::dvec3 gradient, point;
                     gradient[axis] = at(column, slopes_at(zero));
                     gradient[i] = at(contract(slopes, weights_at(t)), weights_at(zero));
                     gradient[j] = at(contract(face, slopes_at(t)), weights_at(zero));
-                    place[axis] = zero, place[i] = s, place[j] = t;
-                    add_point(cell.corner + cell.edge * place, gradient, axis,
+                    point[axis] = zero, point[i] = s, point[j] = t;
+                    add_point(cell.corner + cell.edge * point, gradient, axis,
                               weight * share * cell.edge * cell.edge);
                 }
             });
@@ -221,13 +221,13 @@ double half_curvature(uint32_t word, int first) {
 /// The values of a voxel's record at the 27 points, by the formula in shared/voxel.h.
 std::array<double, 27> field_values(const uint32_t* record) {
     // A surface that lies in a side of voxels would, by rounding, belong to both voxels or to none.
-    constexpr double kLift = 1e-6;  // distance units: 1e-10 voxel
+    constexpr double kOffset = 1e-6;  // distance units: 1e-10 voxel
     std::array<double, 27> values;
     for (size_t i = 0; i < 27; ++i) {
-        const size_t place[] = {i % 3, i / 3 % 3, i / 9};
-        const double s[] = {0.5 * double(place[0]), 0.5 * double(place[1]), 0.5 * double(place[2])};
+        const size_t index[] = {i % 3, i / 3 % 3, i / 9};
+        const double s[] = {0.5 * double(index[0]), 0.5 * double(index[1]), 0.5 * double(index[2])};
         const auto share = [&](int axis, uint32_t end) { return end != 0 ? s[axis] : 1 - s[axis]; };
-        double value = kLift;
+        double value = kOffset;
         for (uint32_t n = 0; n < 4; ++n) {
             const double yz = share(1, n & 1) * share(2, n >> 1);
             const double xz = share(0, n & 1) * share(2, n >> 1);

@@ -53,10 +53,10 @@ void add_edge(RowBounds& bounds, const Prism& prism, const glm::ivec3& a, const 
     for (const int64_t side : {prism.low[axis - 1], prism.high[axis - 1]}) {
         const int64_t to_side = side - at(a, axis);  // the point is a + (b - a) to_side / way
         if (!is_on_edge(to_side, way)) continue;
-        const int64_t place = at(a, other) * way + (at(b, other) - at(a, other)) * to_side;
+        const int64_t scaled = at(a, other) * way + (at(b, other) - at(a, other)) * to_side;
         const int64_t sign = way > 0 ? 1 : -1;
-        if (place * sign < prism.low[other - 1] * way * sign ||
-            place * sign > prism.high[other - 1] * way * sign)
+        if (scaled * sign < prism.low[other - 1] * way * sign ||
+            scaled * sign > prism.high[other - 1] * way * sign)
             continue;
         bounds.add(Wide(at(a, 0)) * way + Wide(at(b, 0) - at(a, 0)) * to_side, way);
     }

@@ -67,13 +67,13 @@ std::string snap_fault(const FixedGrid& grid, const FloatRay& ray, const FixedRa
                            direction[2]);
     const double t = passage(grid, ray.origin, direction, 0).first;
     for (int a = 0; a < 3; ++a) {
-        const int64_t place = snapped->origin[size_t(a)];
-        if (place < 0 || place > grid.size[a] * grid.unit())
-            return fmt::format("begins outside of the grid, at {} / 2^{}", place,
+        const int64_t coordinate = snapped->origin[size_t(a)];
+        if (coordinate < 0 || coordinate > grid.size[a] * grid.unit())
+            return fmt::format("begins outside of the grid, at {} / 2^{}", coordinate,
                                grid.fraction_bits);
         const double exact =
             double(ray.origin[a]) + std::ldexp(double(direction[size_t(a)]), -22) * t;
-        const double off = std::ldexp(double(place), -grid.fraction_bits) - exact;
+        const double off = std::ldexp(double(coordinate), -grid.fraction_bits) - exact;
         if (std::abs(off) > 2 * bound)
             return fmt::format("begins {} voxels off along {}, more than {}", off, "xyz"[a],
                                2 * bound);

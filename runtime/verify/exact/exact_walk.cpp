@@ -121,9 +121,9 @@ void walk(const FixedGrid& grid, Turned& r, Steps steps, const Visit& visit) {
 }
 
 uint32_t mixed(uint32_t hash, const glm::ivec3& cell, int axis, float t) {
-    const uint32_t place = uint32_t(cell.x) * VXL_HASH_X + uint32_t(cell.y) * VXL_HASH_Y +
-                           uint32_t(cell.z) * VXL_HASH_Z + uint32_t(axis);
-    return ((hash ^ std::bit_cast<uint32_t>(t)) + place) * VXL_HASH_FACTOR;
+    const uint32_t cell_hash = uint32_t(cell.x) * VXL_HASH_X + uint32_t(cell.y) * VXL_HASH_Y +
+                               uint32_t(cell.z) * VXL_HASH_Z + uint32_t(axis);
+    return ((hash ^ std::bit_cast<uint32_t>(t)) + cell_hash) * VXL_HASH_FACTOR;
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ class ReadOccupancy {
     bool is_set(const glm::ivec3& v) const {
         const uint32_t slot = slots_[brick_number(v / 16, bricks_)];
         if (slot >= kBrickInside) return slot == kBrickInside;
-        const VoxelSlot place(v);
-        return (masks_[size_t{64} * slot + place.leaf] & place.bit) != 0;
+        const VoxelSlot voxel_slot(v);
+        return (masks_[size_t{64} * slot + voxel_slot.leaf] & voxel_slot.bit) != 0;
     }
     std::array<uint64_t, 64> masks(const glm::ivec3& brick) const {
         std::array<uint64_t, 64> masks{};

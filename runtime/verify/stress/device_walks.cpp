@@ -133,8 +133,8 @@ BrickGrid cubes_of(const Device& device, const VoxelBits& voxels, const GridFram
                     for (v.y = first.y; v.y < end.y; ++v.y)
                         for (v.x = first.x; v.x < end.x; ++v.x) {
                             if (!voxels.is_set(v)) continue;
-                            const VoxelSlot place(v);
-                            masks[place.leaf] |= place.bit;
+                            const VoxelSlot voxel_slot(v);
+                            masks[voxel_slot.leaf] |= voxel_slot.bit;
                             any = true;
                         }
                 slots.push_back(any ? uint32_t(coordinates.size()) : kBrickOutside);

@@ -37,19 +37,19 @@ InwardRay ray_to(const glm::dvec3& target, const std::array<int64_t, 3>& origin,
 }
 
 /// A random point on a side of the grid that lies across axis `face`.
-std::array<int64_t, 3> place_on_side(const FixedGrid& grid, size_t face, StressRandom& random) {
-    std::array<int64_t, 3> place;
+std::array<int64_t, 3> point_on_side(const FixedGrid& grid, size_t face, StressRandom& random) {
+    std::array<int64_t, 3> point;
     for (size_t a = 0; a < 3; ++a) {
         const int64_t side = grid.size[int(a)] * grid.unit();
-        place[a] = a == face ? int64_t(random.below(2)) * side : random.between(0, side);
+        point[a] = a == face ? int64_t(random.below(2)) * side : random.between(0, side);
     }
-    return place;
+    return point;
 }
 
 InwardRay from_a_side(const Ring& ring, const FixedGrid& grid, double share, StressRandom& random) {
     const glm::dvec3 target = point_inside(ring, share, random);
     const size_t face = random.below(3);
-    return ray_to(target, place_on_side(grid, face, random), grid);
+    return ray_to(target, point_on_side(grid, face, random), grid);
 }
 
 /// A ray from outside through half-integer points to a lattice point inside: it passes corners and
@@ -127,7 +127,7 @@ std::array<InwardRay, VXL_BEAM_RAYS> inward_tile(const Ring& ring, const FixedGr
     glm::dvec3 middle = point_inside(ring, share, random);
     while (!is_deep(ring, middle, share)) middle = point_inside(ring, share, random);
     const size_t face = random.below(3);
-    const std::array<int64_t, 3> start = place_on_side(grid, face, random);
+    const std::array<int64_t, 3> start = point_on_side(grid, face, random);
     const double origin_spread = random.below(2) ? std::exp2(random.uniform(-6, 4)) : 0;
     const double target_spread = std::exp2(random.uniform(-6, 5));
     std::array<InwardRay, VXL_BEAM_RAYS> tile;

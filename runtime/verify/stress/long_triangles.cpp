@@ -43,9 +43,9 @@ class LongTriangle {
         const glm::ivec3 a = point(1, units_.x / 8), b = point(units_.x * 7 / 8, units_.x);
         switch (random_.below(9)) {
             case 0:
-                return held({a, b, beside(a, b, 4)});
+                return held({a, b, next_to(a, b, 4)});
             case 1:
-                return held({a, b, beside(a, b, width())});
+                return held({a, b, next_to(a, b, width())});
             case 2:
                 return held({a, b, near(b, kUnitsPerVoxel)});
             case 3:
@@ -78,7 +78,7 @@ class LongTriangle {
         return q;
     }
     /// A point at most `reach` from a point of the segment along each axis.
-    glm::ivec3 beside(const glm::ivec3& a, const glm::ivec3& b, int reach) {
+    glm::ivec3 next_to(const glm::ivec3& a, const glm::ivec3& b, int reach) {
         const int64_t part = random_.between(0, 1 << 16);
         glm::ivec3 p;
         for (int axis = 0; axis < 3; ++axis)
@@ -87,13 +87,13 @@ class LongTriangle {
     }
     TriangleOnLattice in_plane(const glm::ivec3& a, const glm::ivec3& b, int tilt) {
         const int axis = 1 + int(random_.below(2));
-        TriangleOnLattice t = {a, b, beside(a, b, width())};
+        TriangleOnLattice t = {a, b, next_to(a, b, width())};
         const int plane = std::max(kUnitsPerVoxel, a[axis] / kUnitsPerVoxel * kUnitsPerVoxel);
         for (glm::ivec3& p : t) p[axis] = plane + int(random_.between(-tilt, tilt));
         return held(t);
     }
     TriangleOnLattice on_corners(const glm::ivec3& a, const glm::ivec3& b) {
-        TriangleOnLattice t = {a, b, beside(a, b, width())};
+        TriangleOnLattice t = {a, b, next_to(a, b, width())};
         for (glm::ivec3& p : t)
             p = glm::clamp(p / kUnitsPerVoxel, glm::ivec3(1), units_ / kUnitsPerVoxel - 1) *
                 kUnitsPerVoxel;
@@ -120,14 +120,14 @@ class LongTriangle {
         }
         way.x = way.x / step_ * step_;
         const glm::ivec3 a = corner - way * before, b = corner + way * behind;
-        return held({a, b, beside(a, b, width())});
+        return held({a, b, next_to(a, b, width())});
     }
     /// A triangle with a length on either side of the limit from which planes are computed in 128
     /// bits.
     TriangleOnLattice about_128_voxels(const glm::ivec3& a) {
         glm::ivec3 b = near(a, 2 * kUnitsPerVoxel);
         b.x = a.x + 128 * kUnitsPerVoxel + step_ * int(random_.between(-1, 1));
-        return held({a, b, beside(a, b, width())});
+        return held({a, b, next_to(a, b, width())});
     }
     /// The triangle clamped to the region, with whole steps along x.
     TriangleOnLattice held(TriangleOnLattice t) const {

@@ -42,12 +42,12 @@ FixedRay between_lattice_points(const FixedGrid& grid, StressRandom& random) {
     FixedRay ray;
     const int64_t half = grid.unit() / 2;
     for (size_t a = 0; a < 3; ++a) {
-        const int64_t places = 2 * int64_t(grid.size[int(a)]);
-        const int64_t from = random.between(0, places);
+        const int64_t half_steps = 2 * int64_t(grid.size[int(a)]);
+        const int64_t from = random.between(0, half_steps);
         // Most targets are close, because these rays have more ties.
-        const int64_t reach = random.below(4) == 0 ? places : 16;
+        const int64_t reach = random.below(4) == 0 ? half_steps : 16;
         const int64_t to =
-            random.between(std::max<int64_t>(0, from - reach), std::min(places, from + reach));
+            random.between(std::max<int64_t>(0, from - reach), std::min(half_steps, from + reach));
         ray.origin[a] = from * half;
         ray.direction[a] = to - from;
     }

@@ -31,10 +31,10 @@ class ExactVoxels {
             slot = uint32_t(masks_.size());
             masks_.push_back({});
         }
-        const VoxelSlot place(v);
-        uint64_t& mask = masks_[slot][place.leaf];
-        count_ += (mask & place.bit) == 0;
-        mask |= place.bit;
+        const VoxelSlot voxel_slot(v);
+        uint64_t& mask = masks_[slot][voxel_slot.leaf];
+        count_ += (mask & voxel_slot.bit) == 0;
+        mask |= voxel_slot.bit;
     }
 
     const BrickMasks& masks(const glm::ivec3& brick) const {

@@ -82,10 +82,10 @@ PeerMesh tessellated(const BenchSolid& solid, int rings) {
     for (int v = 0; v < rings; ++v)
         for (int u = 0; u < columns; ++u) {
             const uint32_t corner = number(u, v), across = number(u + 1, v + 1);
-            uint32_t beside = number(u + 1, v), above = number(u, v + 1);
+            uint32_t neighbour = number(u + 1, v), above = number(u, v + 1);
             // v runs downwards on the sphere but upwards on the torus's outer side.
-            if (solid.solid.kind != SolidKind::sphere) std::swap(beside, above);
-            mesh.triangles.emplace_back(corner, beside, across);
+            if (solid.solid.kind != SolidKind::sphere) std::swap(neighbour, above);
+            mesh.triangles.emplace_back(corner, neighbour, across);
             mesh.triangles.emplace_back(corner, across, above);
         }
     mesh.positions.reserve(mesh.positions.size() + 2);

@@ -22,13 +22,13 @@ using Json = nlohmann::json;
 
 const std::vector<float> kCorners = {0, 0, 0, 7, 0, 0, 0, 5, 3};
 const std::vector<float> kPulled = {0, 1, 0, 0.5F, 0, 0, 0, 0, -2};
-const std::vector<float> kLifted = {0, 0, 4, 0, 0, 4, 0.25F, 0, 4};
+const std::vector<float> kRaised = {0, 0, 4, 0, 0, 4, 0.25F, 0, 4};
 
 /// A triangle with two targets, and weights of its mesh.
 GltfWriter pulled_triangle(const std::vector<float>& weights) {
     GltfWriter writer = triangle_gltf();
     Json& mesh = writer.json["meshes"][0];
-    for (const std::vector<float>* offsets : {&kPulled, &kLifted})
+    for (const std::vector<float>* offsets : {&kPulled, &kRaised})
         mesh["primitives"][0]["targets"].push_back(
             {{"POSITION", writer.accessor(*offsets, "VEC3", 3)}});
     if (!weights.empty()) mesh["weights"] = weights;
@@ -65,7 +65,7 @@ class GltfMorphTest : public FileTest {
         const Mesh& mesh = *assets_.mesh_of(scene.models[0]);
         double worst = 0;
         for (size_t i = 0; i < 9; ++i) {
-            const double expected = kCorners[i] + first * kPulled[i] + second * kLifted[i];
+            const double expected = kCorners[i] + first * kPulled[i] + second * kRaised[i];
             worst = std::max(worst, std::abs(mesh.positions[i / 3][int(i % 3)] - expected));
         }
         return worst;

@@ -222,7 +222,7 @@ TEST(GltfMesh, NormalsThatAreNoNumbersSayNothingAndPositionsAreRefused) {
     EXPECT_THAT(refusal_of_gltf(writer), HasSubstr("a vertex isn't finite"));
 }
 
-TEST(GltfMesh, LeavesOutPointsBesideTrianglesWithANote) {
+TEST(GltfMesh, LeavesOutPointsAlongsideTrianglesWithANote) {
     GltfWriter writer = triangle_gltf();
     Json& primitives = writer.json["meshes"][0]["primitives"];
     primitives.push_back(primitives[0]);

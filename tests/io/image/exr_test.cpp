@@ -170,8 +170,8 @@ TEST_F(ExrTest, WhatAHeaderDeclaresBeyondTheFileIsRefusedBeforeMemoryIsTaken) {
     const std::string bytes = bytes_of(path());
     const auto refusal = [&](const std::string& head, const std::string& value) {
         std::string changed = bytes;
-        const size_t place = bytes.find(head) + head.size();
-        put_bytes(path(), changed.replace(place, value.size(), value));
+        const size_t offset = bytes.find(head) + head.size();
+        put_bytes(path(), changed.replace(offset, value.size(), value));
         EXPECT_EQ(error_of([&] { read_exr_header(path()); }).exit_code(), 4);
         return std::string(error_of([&] { read_exr(path()); }).what());
     };

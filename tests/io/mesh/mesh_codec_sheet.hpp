@@ -36,7 +36,7 @@ struct Sheet {
 };
 
 /// A position rounded to a lattice so coarse that a codec's steps don't change it.
-inline std::array<long, 3> place_of(const glm::vec3& p) {
+inline std::array<long, 3> lattice_point(const glm::vec3& p) {
     return {std::lround(p.x / 0.1f), std::lround(p.y / 0.1f), std::lround(p.z / 0.1f)};
 }
 
@@ -62,7 +62,7 @@ std::multiset<std::array<Corner, 3>> triangles_of(const std::vector<glm::vec3>& 
     std::multiset<std::array<Corner, 3>> found;
     for (size_t i = 0; i < count; ++i) {
         std::array<Corner, 3> corners;
-        for (size_t c = 0; c < 3; ++c) corners[c] = place_of(positions[corner_of(i, c)]);
+        for (size_t c = 0; c < 3; ++c) corners[c] = lattice_point(positions[corner_of(i, c)]);
         std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()),
                     corners.end());
         found.insert(corners);

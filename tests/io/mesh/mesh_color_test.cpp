@@ -81,7 +81,7 @@ TEST(MeshColors, OfPlyFacesThatAreNoColorsAreSkipped) {
               "a.ply:18: the face's colour has a part of 1.5; colours are from 0 to 1");
 }
 
-TEST(MeshStrips, TurnEveryOtherTriangleRoundAndBeginAnewAtMinusOne) {
+TEST(MeshStrips, TurnEveryOtherTriangleRoundAndBeginAgainAtMinusOne) {
     const Mesh mesh = parse_mesh(ply("element tristrips 2\nproperty list int int vertex_indices\n",
                                      "8 0 1 2 3 -1 4 2 1\n5 0 0 1 2 4\n"),
                                  "a.ply");

@@ -65,10 +65,10 @@ TEST(MeshMaps, OfGltfHaveTheirPlacesByThoseOfTheBaseColor) {
     EXPECT_THAT(mesh.group_textures, ElementsAre(2u));
     const Texture& base = mesh.textures[2];
     // u of the base is 0.5 + 2 u', of the emission 0.25 + 3 u'.
-    EXPECT_THAT(base.maps[kEmissionMap].places,
+    EXPECT_THAT(base.maps[kEmissionMap].transform,
                 Pointwise(testing::FloatNear(1e-6f), {1.5f, 0.f, -0.5f, 0.f, 2.f, 2.5f}));
     // A quarter of a turn: (v', -u').
-    EXPECT_THAT(base.maps[kGlossMap].places,
+    EXPECT_THAT(base.maps[kGlossMap].transform,
                 Pointwise(testing::FloatNear(1e-6f), {0.f, 0.25f, 0.25f, -0.5f, 0.f, 0.25f}));
     // Numbers are plain means, colours means of light.
     const auto last_of = [&](size_t map) {
@@ -90,7 +90,7 @@ TEST(MeshMaps, OfGltfWithCoordinatesOfTheirOwnAreShownAsTheirMeanWithANote) {
                                                   "as its mean")));
 }
 
-TEST(MeshMaps, OfGltfThatCantBeReadNeitherGlowNorAreMetal) {
+TEST(MeshMaps, OfGltfThatCantBeReadAreNeitherEmissiveNorMetal) {
     const Mesh mesh =
         mesh_with({{"emissiveFactor", {1, 1, 1}},
                    {"emissiveTexture", {{"index", 0}}},
@@ -103,7 +103,7 @@ TEST(MeshMaps, OfGltfThatCantBeReadNeitherGlowNorAreMetal) {
     EXPECT_EQ(mesh.notes.size(), 2u) << testing::PrintToString(mesh.notes);
 }
 
-TEST(MeshMaps, OfGltfAreLeftOutWhereNothingGlowsAndOfGlassAndCoats) {
+TEST(MeshMaps, OfGltfAreLeftOutWhereNothingIsEmissiveAndOfGlassAndCoats) {
     const Json gloss = {{"metallicRoughnessTexture", {{"index", 0}}}};
     EXPECT_TRUE(mesh_with({{"emissiveTexture", {{"index", 0}}}}, uri_of(two_texels(1, 2)))
                     .textures.empty());
@@ -137,7 +137,7 @@ TEST_F(MeshMapFiles, OfLibrariesJoinRoughnessAndMetalness) {
     EXPECT_EQ(gloss.image->texels.at(0), 0xFFFF00FFu) << "metalness is its factor";
     EXPECT_EQ(gloss.image->texels.at(1), 0xFFFFC8FFu);
     // u is 0.5 + 2 u', 1 - v is 0.25 + 4 (1 - v'), and of the map 3 u' and v'.
-    EXPECT_THAT(base.maps[kEmissionMap].places,
+    EXPECT_THAT(base.maps[kEmissionMap].transform,
                 Pointwise(testing::FloatNear(1e-6f), {1.5f, 0.f, -0.75f, 0.f, 0.25f, 0.8125f}));
     const std::string bytes = "mtllib a.mtl\n";
     EXPECT_EQ(companion_files(bytes, folder / "a.obj").size(), 4u);
@@ -158,7 +158,7 @@ TEST_F(MeshMapFiles, OfLibrariesAreReadOnceForAllMaterials) {
     for (const size_t map : {kGlossMap, kEmissionMap})
         EXPECT_EQ(m.maps[map].texture, n.maps[map].texture);
     EXPECT_NE(m.maps[kGlossMap].texture, m.maps[kEmissionMap].texture) << "numbers, and colours";
-    EXPECT_NE(m.maps[kEmissionMap].places, n.maps[kEmissionMap].places);
+    EXPECT_NE(m.maps[kEmissionMap].transform, n.maps[kEmissionMap].transform);
 }
 
 TEST_F(MeshMapFiles, OfLibrariesThatDifferInSizeHaveThatOfTheLarger) {
@@ -173,7 +173,7 @@ TEST_F(MeshMapFiles, OfLibrariesThatDifferInSizeHaveThatOfTheLarger) {
     EXPECT_EQ(gloss.texels.at(1) >> 16 & 0xFF, 0xFFu);
 }
 
-TEST_F(MeshMapFiles, OfLibrariesThatArentThereNeitherGlowNorAreMetal) {
+TEST_F(MeshMapFiles, OfLibrariesThatArentThereAreNeitherEmissiveNorMetal) {
     const Mesh mesh = read("map_Pr none.png\nmap_Pm other.png\nmap_Ke none.png\n");
     ASSERT_EQ(mesh.textures.size(), 3u);
     EXPECT_EQ(mesh.textures[0].image->texels, std::vector<uint32_t>{0xFF00B3FF});

@@ -166,7 +166,7 @@ TEST_F(MeshOpacity, OfVerticesThatAllAreOpaqueOrAllAreNothingIsNone) {
     EXPECT_THAT(parse_mesh(ply_of("char alpha", {"7", "0", "0"}), "a.ply").textures, IsEmpty());
 }
 
-TEST_F(MeshOpacity, OfVerticesBesideATextureIsNoted) {
+TEST_F(MeshOpacity, OfVerticesAlongsideATextureIsNoted) {
     const Mesh mesh = parse_mesh(
         ply_of("uchar alpha", {"255", "9", "255"}, "comment TextureFile grey.png\n"), "a.ply");
     EXPECT_THAT(mesh.textures, IsEmpty());

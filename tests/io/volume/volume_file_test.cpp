@@ -154,8 +154,8 @@ TEST_F(VolumeFileTest, PlyPointsStandInTheWorld) {
         if (rays.opacities[i] == 0) continue;
         float p[3];
         std::memcpy(p, bytes.data() + at, sizeof p);
-        const auto place = int(rays.indices[i]);
-        const double u = place % 7, v = place / 7 % 5, k = place / 35;
+        const auto index = int(rays.indices[i]);
+        const double u = index % 7, v = index / 7 % 5, k = index / 35;
         const double depth =
             rays.kinds[i] == VoxelKind::object ? double(rays.depths[i]) : 0.7 + 0.3 * (k + 0.5);
         const glm::dvec4 expected =

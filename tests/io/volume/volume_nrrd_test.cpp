@@ -134,10 +134,10 @@ TEST_F(VolumeNrrdTest, EveryVoxelIsInItsPlaceAndTheOthersAreZero) {
         const Nrrd nrrd(path());
         ASSERT_EQ(nrrd.values.size(), 4u * 105u);
         size_t next = 0;
-        for (size_t place = 0; place < 105; ++place) {
-            const bool listed = next < volume.indices.size() && volume.indices[next] == place;
-            EXPECT_EQ(nrrd.values[4 * place + 2], listed ? volume.colors[next].b : 0.0f);
-            EXPECT_EQ(nrrd.values[4 * place + 3], listed ? volume.opacities[next] : 0.0f);
+        for (size_t index = 0; index < 105; ++index) {
+            const bool listed = next < volume.indices.size() && volume.indices[next] == index;
+            EXPECT_EQ(nrrd.values[4 * index + 2], listed ? volume.colors[next].b : 0.0f);
+            EXPECT_EQ(nrrd.values[4 * index + 3], listed ? volume.opacities[next] : 0.0f);
             next += listed;
         }
     }

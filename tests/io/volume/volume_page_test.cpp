@@ -136,8 +136,8 @@ TEST_F(VolumePageTest, ItLetsNothingInFromElsewhere) {
 
 TEST_F(VolumePageTest, MoreVoxelsThanAPageTakesAreMerged) {
     Volume volume = lattice_volume({256, 256, 40}, 0);
-    for (uint64_t place = 0; place < 256 * 256 * 40; ++place) {
-        volume.indices.push_back(place);
+    for (uint64_t index = 0; index < 256 * 256 * 40; ++index) {
+        volume.indices.push_back(index);
         volume.colors.emplace_back(0.25f, 0.5f, 1.0f);
         volume.opacities.push_back(0.5f);
         volume.depths.push_back(1);

@@ -57,18 +57,18 @@ TEST_F(VolumeRawTest, EveryValueIsWhereTheHeaderSays) {
     const Volume volume = single_voxel({7, 5, 3}, {4, 1, 2}, {0.5f, 0.25f, 0.125f}, 0.75f);
     write_volume(data(), volume);
     const std::string bytes = bytes_of(data());
-    const size_t place = 4 + 7 * (1 + 5 * 2);
+    const size_t index = 4 + 7 * (1 + 5 * 2);
     const auto float_at = [&](size_t offset) {
         float value = 0;
         std::memcpy(&value, bytes.data() + offset, sizeof value);
         return value;
     };
-    EXPECT_EQ(float_at(16 * place + 4), 0.25f);
-    EXPECT_EQ(float_at(16 * place + 12), 0.75f);
-    EXPECT_EQ(float_at(16 * (place + 1)), 0.0f);
-    EXPECT_EQ(float_at(105 * 16 + 4 * place), 1.0f);
-    EXPECT_EQ(bytes[105 * 20 + 4 * place], 1);
-    EXPECT_EQ(bytes[105 * 24 + place], 2);
+    EXPECT_EQ(float_at(16 * index + 4), 0.25f);
+    EXPECT_EQ(float_at(16 * index + 12), 0.75f);
+    EXPECT_EQ(float_at(16 * (index + 1)), 0.0f);
+    EXPECT_EQ(float_at(105 * 16 + 4 * index), 1.0f);
+    EXPECT_EQ(bytes[105 * 20 + 4 * index], 1);
+    EXPECT_EQ(bytes[105 * 24 + index], 2);
 }
 
 TEST_F(VolumeRawTest, TheSameVolumeGivesTheSameBytes) {

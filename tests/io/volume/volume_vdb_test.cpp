@@ -61,8 +61,8 @@ TEST_F(VolumeVdbTest, OpenVdbFindsTheDisplaysVoxelsAndNoOthers) {
     EXPECT_EQ(alpha->activeVoxelCount(), volume.indices.size());
     EXPECT_EQ(density->getGridClass(), openvdb::GRID_FOG_VOLUME);
     for (size_t i = 0; i < volume.indices.size(); ++i) {
-        const auto place = int(volume.indices[i]);
-        const openvdb::Coord c(place % 7, place / 7 % 5, place / 35);
+        const auto index = int(volume.indices[i]);
+        const openvdb::Coord c(index % 7, index / 7 % 5, index / 35);
         EXPECT_EQ(alpha->tree().getValue(c), volume.opacities[i]);
         EXPECT_EQ(color->tree().getValue(c).y(), volume.colors[i].g);
         const double through = std::exp(-2.0 * double(density->tree().getValue(c)));

@@ -114,8 +114,8 @@ TEST_F(VoxelArtTest, GoxelLayersHaveZUpAndMayBeHidden) {
     Image image;
     image.width = image.height = 64;
     std::vector<float> red(64 * 64), green(64 * 64), blue(64 * 64), alpha(64 * 64);
-    const size_t place = 3 + 16 * 2 + 256 * 1;
-    red[place] = alpha[place] = 1;
+    const size_t index = 3 + 16 * 2 + 256 * 1;
+    red[index] = alpha[index] = 1;
     green[0] = alpha[0] = 1;
     image.planes["R"] = red;
     image.planes["G"] = green;

@@ -94,15 +94,15 @@ const glm::dvec3 kCenter(0.017, -0.028, -0.05);
 /// O2: the point where the ray that passes at `b` radii from the axis of a ball of glass leaves the
 /// room.
 WallPoint behind_ball(const SensedRay& ray, double b) {
-    const glm::dvec3 beside = ray.origin - kCenter;
+    const glm::dvec3 from_center = ray.origin - kCenter;
     const glm::dvec3 across =
-        glm::normalize(beside - glm::dot(beside, ray.direction) * ray.direction);
+        glm::normalize(from_center - glm::dot(from_center, ray.direction) * ray.direction);
     const double incidence = std::asin(b), within = std::asin(b / 1.5);
-    const double place =
+    const double angle =
         incidence + std::numbers::pi - 2 * within;  // angle around the ball, from the front
     const double turned = 2 * (incidence - within);
     const glm::dvec3 exit =
-        kCenter + kRadius * (std::sin(place) * across - std::cos(place) * ray.direction);
+        kCenter + kRadius * (std::sin(angle) * across - std::cos(angle) * ray.direction);
     return wall_behind(exit, std::cos(turned) * ray.direction - std::sin(turned) * across);
 }
 
@@ -167,8 +167,8 @@ Misses prism_misses(const char* surface) {
     const double apex = 60 * kDegree;
     const double symmetric = std::asin(1.5 * std::sin(apex / 2)) - apex / 2;
     Misses misses;
-    for (const double beside : {-4.0, 0.0, 6.0}) {
-        const double elevation = symmetric + beside * kDegree;
+    for (const double degrees : {-4.0, 0.0, 6.0}) {
+        const double elevation = symmetric + degrees * kDegree;
         const glm::dvec3 ahead = at_elevation(elevation);
         const double entry = elevation + apex / 2, inside = std::asin(std::sin(entry) / 1.5);
         const double emergence = std::asin(1.5 * std::sin(apex - inside));
@@ -187,7 +187,7 @@ Misses prism_misses(const char* surface) {
     return misses;
 }
 
-TEST(Refraction, O3PrismDeviatesByTheFormulaAroundItsLeast) {
+TEST(Refraction, O3PrismDeviatesByTheFormulaAroundItsMinimum) {
     expect_places(prism_misses("exact"), 1e-6, "exact prism");
     expect_places(prism_misses("smooth"), 1e-4, "smooth prism");
 }

@@ -98,7 +98,7 @@ Json lit_floor(int samples) {
     return scene;
 }
 
-TEST(GlobalLight, AGlowingDiskLightsTheFloorBelowByItsFormFactor) {
+TEST(GlobalLight, AnEmissiveDiskLightsTheFloorBelowByItsFormFactor) {
     // A disk of radius r and radiance L at height h: L r^2 / (r^2 + h^2) in the middle.
     Json scene = lit_floor(256);
     scene["materials"]["lamp"] = {{"color", {0, 0, 0}}, {"emission", {3, 3, 3}}};

@@ -83,8 +83,9 @@ class SolidTruth {
     /// True if a neighbour's surface faces away from that at (x,y) by more than curvature explains.
     bool is_at_edge(int x, int y) const {
         for (const glm::ivec2 step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-            const SeenSolid& beside = at(x + step.x, y + step.y);
-            if (beside.is_hit() && glm::dot(beside.normal, at(x, y).normal) < 0.8) return true;
+            const SeenSolid& neighbour = at(x + step.x, y + step.y);
+            if (neighbour.is_hit() && glm::dot(neighbour.normal, at(x, y).normal) < 0.8)
+                return true;
         }
         return false;
     }

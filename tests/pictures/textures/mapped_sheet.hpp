@@ -64,7 +64,7 @@ class MappedSheetTest : public FileTest {
 
 /// The position on the front of the sheet, from 0 to 1, that a part of a pixel sees; values outside
 /// this range lie beside the sheet.
-inline glm::dvec2 place_seen(const Scene& scene, double column, double row) {
+inline glm::dvec2 point_seen(const Scene& scene, double column, double row) {
     const Observer& o = scene.observer;
     const glm::dvec2 half = half_extent(o.display);
     const glm::dvec2 part = 2.0 * glm::dvec2(column, row) / glm::dvec2(scene.render.size) - 1.0;

@@ -51,8 +51,8 @@ class SmoothMaps : public MappedSheetTest {
 };
 
 /// True if a place is on the front, and not where the edges are rounded.
-bool is_flat(const glm::dvec2& place) {
-    return place == glm::clamp(place, 0.15, 0.85);
+bool is_flat(const glm::dvec2& point) {
+    return point == glm::clamp(point, 0.15, 0.85);
 }
 
 TEST_F(SmoothMaps, OfEmissionAreTheMeanOverAPixel) {
@@ -68,7 +68,7 @@ TEST_F(SmoothMaps, OfEmissionAreTheMeanOverAPixel) {
                   {{{"model", "sheet"}, {"turn", {0, 20, 8}}, {"placement", placement}}}}});
             const Image image = image_of_scene(scene);
             const auto value = [&](double column, double row) -> std::optional<glm::dvec3> {
-                const glm::dvec2 at = place_seen(scene, column, row);
+                const glm::dvec2 at = point_seen(scene, column, row);
                 if (!is_flat(at)) return std::nullopt;
                 return factor * oracle::bilinear(picture, at);
             };
@@ -93,7 +93,7 @@ TEST_F(SmoothMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
             material["roughness"] = 0.8 * (is_right ? 200 : 60) / 255;
             const Image expected = image_of_scene(scene_of("plain.gltf", material, light, lit));
             const auto counts = [&](double column, double row) {
-                const glm::dvec2 at = place_seen(scene, column, row);
+                const glm::dvec2 at = point_seen(scene, column, row);
                 return is_flat(at) && (is_right ? at.x >= 0.6 : at.x <= 0.4);
             };
             EXPECT_LT(relative_rms(image, expected, 300u, counts),
@@ -106,7 +106,7 @@ TEST_F(SmoothMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
 TEST_F(SmoothMaps, OfMetalMirrorThingsThatAreOutOfView) {
     write("metal.gltf", {halves({0, 0, 255}, {0, 0, 255})},
           {{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}});
-    const auto image_beside = [&](bool has_post) {
+    const auto image_of_metal = [&](bool has_post) {
         Json objects = {{{"model", "sheet"}}};
         if (has_post)
             objects.push_back(
@@ -119,14 +119,14 @@ TEST_F(SmoothMaps, OfMetalMirrorThingsThatAreOutOfView) {
              {"objects", objects},
              {"observer", {{"position", {-1.3, 0, -1.6}}}}}));
     };
-    const auto with = image_beside(true).planes.at("R"),
-               without = image_beside(false).planes.at("R");
+    const auto with = image_of_metal(true).planes.at("R"),
+               without = image_of_metal(false).planes.at("R");
     int shown = 0;
     for (size_t i = 0; i < with.size(); ++i) shown += with[i] > without[i] + 0.1f;
     EXPECT_GT(shown, 50);
 }
 
-TEST_F(SmoothMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
+TEST_F(SmoothMaps, OfEmissionLightTheWorldFromTheirEmissiveParts) {
     const Json glows = {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}};
     write("part.gltf", {halves({255, 255, 255}, {0, 0, 0})}, glows);
     write("half.gltf", {}, Json::object(), 0);

@@ -43,8 +43,8 @@ class TextureMaps : public MappedSheetTest {
     }
 };
 
-bool is_on(const glm::dvec2& place) {
-    return place.x > 0 && place.x < 1 && place.y > 0 && place.y < 1;
+bool is_on(const glm::dvec2& point) {
+    return point.x > 0 && point.x < 1 && point.y > 0 && point.y < 1;
 }
 
 TEST_F(TextureMaps, OfEmissionAreTheMeanOverAPixelAtPlacesOfTheirOwn) {
@@ -71,7 +71,7 @@ TEST_F(TextureMaps, OfEmissionAreTheMeanOverAPixelAtPlacesOfTheirOwn) {
                   {{{"model", "sheet"}, {"turn", {0, 20, 8}}, {"placement", placement}}}}});
             const Image image = image_of_scene(scene);
             const auto value = [&](double column, double row) -> std::optional<glm::dvec3> {
-                const glm::dvec2 at = place_seen(scene, column, row);
+                const glm::dvec2 at = point_seen(scene, column, row);
                 if (!is_on(at)) return std::nullopt;
                 const double c = std::cos(0.4), s = std::sin(0.4);
                 const glm::dvec2 q = at * glm::dvec2(1.2, 0.8);
@@ -126,7 +126,7 @@ TEST_F(TextureMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
             material["roughness"] = 0.8 * (is_right ? 200 : 60) / 255;
             const Image expected = image_of_scene(scene_of("plain.gltf", material, light, lit));
             const auto counts = [&](double column, double row) {
-                const glm::dvec2 at = place_seen(scene, column, row);
+                const glm::dvec2 at = point_seen(scene, column, row);
                 return is_on(at) && (is_right ? at.x >= 0.6 : at.x <= 0.4);
             };
             EXPECT_LT(relative_rms(image, expected, 600u, counts),
@@ -136,7 +136,7 @@ TEST_F(TextureMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
     }
 }
 
-TEST_F(TextureMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
+TEST_F(TextureMaps, OfEmissionLightTheWorldFromTheirEmissiveParts) {
     const Json glows = {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}};
     write("part.gltf", {halves({255, 255, 255}, {0, 0, 0})}, glows);
     write("half.gltf", {}, Json::object(), 0);

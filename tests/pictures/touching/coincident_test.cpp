@@ -87,7 +87,7 @@ int pixels_that_differ(const Image& a, const Image& b) {
 }
 
 /// The pixels that differ because an eighth of a voxel was moved: those of some edges' parts.
-constexpr int kBesideEdges = 90;
+constexpr int kMaxAtEdges = 90;
 
 TEST_F(Coincident, TopsShowTheObjectOfTheHigherPriority) {
     for (const bool meshes : {false, true})
@@ -104,7 +104,7 @@ TEST_F(Coincident, TopsShowTheObjectOfTheHigherPriority) {
                 };
                 const Image flush = picture_of(objects(0), meshes),
                             above = picture_of(objects(kMovedBy), meshes);
-                EXPECT_LT(pixels_that_differ(flush, above), kBesideEdges)
+                EXPECT_LT(pixels_that_differ(flush, above), kMaxAtEdges)
                     << "meshes: " << meshes << ", turned by " << turn << ", first: " << first;
             }
 }
@@ -134,7 +134,7 @@ TEST_F(Coincident, WhatLetsLightThroughStandsOnATable) {
                     };
                     const Image standing = picture_of(objects(0), meshes),
                                 sunk = picture_of(objects(kMovedBy), meshes);
-                    EXPECT_LT(pixels_that_differ(standing, sunk), 2 * kBesideEdges)
+                    EXPECT_LT(pixels_that_differ(standing, sunk), 2 * kMaxAtEdges)
                         << "meshes: " << meshes << ", " << model << " of " << material
                         << ", floor last: " << floor_is_last;
                 }
@@ -152,7 +152,7 @@ TEST_F(Coincident, BlocksOfGlassSideBySideTouch) {
             };
             const Image touching = picture_of(objects(0), meshes, turn),
                         overlapping = picture_of(objects(kMovedBy), meshes, turn);
-            EXPECT_LT(pixels_that_differ(touching, overlapping), 3 * kBesideEdges)
+            EXPECT_LT(pixels_that_differ(touching, overlapping), 3 * kMaxAtEdges)
                 << "meshes: " << meshes << ", from " << turn;
         }
 }
@@ -186,7 +186,7 @@ TEST_F(Coincident, SheetsInOnePlaceCoverTogether) {
                 0.3 - down);
         };
         EXPECT_LT(pixels_that_differ(picture_of(objects(0)), picture_of(objects(kMovedBy))),
-                  2 * kBesideEdges)
+                  2 * kMaxAtEdges)
             << "face up: " << up;
     }
 }
@@ -200,7 +200,7 @@ TEST_F(Coincident, WaterStandsOnGlass) {
             0.65 - down);
     };
     const Image standing = picture_of(objects(0)), sunk = picture_of(objects(kMovedBy));
-    EXPECT_LT(pixels_that_differ(standing, sunk), 2 * kBesideEdges);
+    EXPECT_LT(pixels_that_differ(standing, sunk), 2 * kMaxAtEdges);
 }
 
 }  // namespace

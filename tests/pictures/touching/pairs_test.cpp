@@ -30,8 +30,8 @@ struct PairErrors {
     size_t rounded = 0;    ///< the same, of a smooth solid's edges, as far as it rounds them
     double rms = 0;        ///< distance from the true surface, in voxels, where the object is right
     double at_border = 0;  ///< the same, of pixels within two of such that show another object
-    double beside = 0;     ///< the same, of all others
-    double worst_beside = 0;
+    double away_from_border = 0;  ///< the same, of all others
+    double worst_away = 0;
 };
 
 /// The unit in which fields keep distances, in voxels.
@@ -98,8 +98,8 @@ PairErrors errors_of(const Scene& scene, double slack) {
     const double voxel = scene.world.voxel_size.x;
     const Observer& observer = scene.observer;
     PairErrors errors;
-    double sum = 0, sum_beside = 0;
-    size_t count = 0, count_beside = 0;
+    double sum = 0, sum_away = 0;
+    size_t count = 0, count_away = 0;
     const auto rms = [](double squares, size_t pixels) {
         return std::sqrt(squares / double(std::max<size_t>(pixels, 1)));
     };
@@ -124,12 +124,12 @@ PairErrors errors_of(const Scene& scene, double slack) {
                                std::abs(glm::dot(n, d)) / voxel;
             sum += off * off, ++count;
             if (truth.is_at_border(x, y)) continue;
-            sum_beside += off * off, ++count_beside;
-            errors.worst_beside = std::max(errors.worst_beside, off);
+            sum_away += off * off, ++count_away;
+            errors.worst_away = std::max(errors.worst_away, off);
         }
     errors.rms = rms(sum, count);
-    errors.beside = rms(sum_beside, count_beside);
-    errors.at_border = rms(sum - sum_beside, count - count_beside);
+    errors.away_from_border = rms(sum_away, count_away);
+    errors.at_border = rms(sum - sum_away, count - count_away);
     return errors;
 }
 
@@ -149,8 +149,8 @@ TEST(Pairs, ShowTheObjectThatIsThere) {
             const std::string what = fmt::format(
                 "{}, {} and {}: {} pixels, {} wrong, rms {:.2e} voxel, {:.2e} at borders, {:.2e} "
                 "beside them (at most {:.2e})",
-                pair.name, first, second, e.shown, e.wrong, e.rms, e.at_border, e.beside,
-                e.worst_beside);
+                pair.name, first, second, e.shown, e.wrong, e.rms, e.at_border, e.away_from_border,
+                e.worst_away);
             fmt::print("{}\n", what);
             EXPECT_GT(e.shown, 900u) << what;
             EXPECT_EQ(e.wrong, 0u) << what;
@@ -164,13 +164,13 @@ TEST(Pairs, ShowTheObjectThatIsThere) {
 /// Depths can't be better than distances are rounded: half of a stored step.
 constexpr double kRounded = kStoredStep / 2;
 
-TEST(Pairs, SmoothOnesConvergeBesideTheirBorders) {
+TEST(Pairs, SmoothOnesConvergeAwayFromTheirBorders) {
     for (const SolidPair& pair : kSolidPairs) {
         if (!pair.is_smooth) continue;
         std::optional<double> before;
         for (const double voxel : {1 / 8.0, 1 / 16.0, 1 / 32.0}) {
             const auto [models, objects] = pair_text(pair, "smooth", "smooth");
-            const double voxels = errors_of(voxel, models, objects, 0.5).beside;
+            const double voxels = errors_of(voxel, models, objects, 0.5).away_from_border;
             const double metres = voxels * voxel;
             const double order = before ? std::log2(*before / metres) : INFINITY;
             fmt::print("{}: {:.2e} m, {:.2e} voxels: order {:.2f}\n", pair.name, metres, voxels,

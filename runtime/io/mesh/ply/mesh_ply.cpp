@@ -184,8 +184,7 @@ class BodyParser {
         const auto first = static_cast<uint32_t>(mesh_.uvs.size());
         for (size_t i = 0; i < corners_.size(); ++i)
             mesh_.uvs.push_back(upright_uv(corner_uvs_[2 * i], corner_uvs_[2 * i + 1]));
-        for (const glm::uvec3& places : cutter_.places())
-            mesh_.triangle_uvs.push_back(places + first);
+        for (const glm::uvec3& t : cutter_.triangles()) mesh_.triangle_uvs.push_back(t + first);
     }
 
     /// Parses triangle strips: each index makes a triangle with the two before it, and -1 ends a

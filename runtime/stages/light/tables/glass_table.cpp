@@ -80,24 +80,24 @@ Returned returned_at(double cosine, double width, double eta) {
 constexpr int kLastAngle = VXL_GLASS_ENTRIES - 1;
 
 /// The index of a cosine in tables, from 0 to kLastAngle.
-double place_of(double width, double cosine) {
+double index_of(double width, double cosine) {
     return kLastAngle * (std::sqrt(cosine * (1 + width) / (cosine + width)) + cosine) / 2;
 }
 
 /// The cosine of an index, found by bisection.
-double cosine_at(double width, double place) {
+double cosine_at(double width, double index) {
     constexpr int kHalves = 60;
     double low = 0, high = 1;
     for (int i = 0; i < kHalves; ++i) {
         const double middle = (low + high) / 2;
-        (place_of(width, middle) < place ? low : high) = middle;
+        (index_of(width, middle) < index ? low : high) = middle;
     }
     return high;
 }
 
 /// The missing share of a side that kernels read for a cosine.
 double missing_at(const GlassTable& table, size_t side, double width, double cosine) {
-    const double at = place_of(width, cosine);
+    const double at = index_of(width, cosine);
     const int entry = std::min(int(at), kLastAngle - 1);
     const double low = table.values[size_t(2 * entry) + side];
     const double high = table.values[size_t(2 * entry + 2) + side];
