@@ -23,11 +23,11 @@
 // the fields in brick b, in the order of priorities. An entry is the number of an object's brick
 // among all objects' bricks (x), the object's rank (y), and the brackets that the field stands in
 // (z, shared/field_place.h). `masks` holds the masks of each field's leaves. The other masks are of
-// the world's bricks: of all voxels, of those that list fields, and of the base grid's voxels.
+// the world's bricks: of all voxels, and of those that list fields.
 #define VXL_UNITED_PARAMETERS                                                     \
     global const uint *restrict entry_first, global const uint *restrict entries, \
         global ulong *restrict masks, global ulong *restrict united,              \
-        global ulong *restrict listing, global ulong *restrict of_base
+        global ulong *restrict listing
 
 // Copies the masks of one object's leaves behind the masks of the objects before it.
 kernel void append_masks(const uint count, const uint first, global const ulong* restrict from,
@@ -118,8 +118,8 @@ static inline ulong settle_cubes(const BrickGrid* grid, uint slot, int leaf, ulo
 kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
                         global const uint* restrict brick_numbers,
                         global const uint* restrict base_slots, global const uint* restrict ranks,
-                        VXL_UNITED_PARAMETERS, global ulong* restrict leaf_masks,
-                        global uint* restrict counts) {
+                        VXL_UNITED_PARAMETERS, global ulong* restrict of_base,
+                        global ulong* restrict leaf_masks, global uint* restrict counts) {
     const uint item = work_item();
     if (item >= count) return;
     const BrickGrid grid = VXL_BRICK_GRID;
@@ -170,7 +170,8 @@ kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
 // and listed field of each brick).
 kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
                          global const uint* restrict base_slots, VXL_UNITED_PARAMETERS,
-                         global const uint* restrict starts, VXL_WRITTEN_PARAMETERS) {
+                         global const ulong* restrict of_base, global const uint* restrict starts,
+                         VXL_WRITTEN_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;
     const BrickGrid grid = VXL_BRICK_GRID;

@@ -231,6 +231,7 @@ static inline lane_int pass_surface(const WorldView* world, const Surroundings* 
 /// No light passes through surfaces. So the kernel doesn't depend on what they are made of.
 static inline lane_int pass_surface(const WorldView* world, const Surroundings* around, Packet* f,
                                     lane_int ended, lane_int hit, Filter* filter) {
+    (void)world, (void)around, (void)f, (void)ended, (void)hit, (void)filter;
     return (lane_int)0;
 }
 

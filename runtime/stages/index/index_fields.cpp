@@ -101,8 +101,7 @@ struct UnitedArrays {
 
 /// VXL_UNITED_PARAMETERS of index_fields.cl.
 void bind(KernelArguments& to, const UnitedArrays& arrays) {
-    to.add(arrays.first, arrays.entries, arrays.masks, arrays.united, arrays.listing,
-           arrays.of_base);
+    to.add(arrays.first, arrays.entries, arrays.masks, arrays.united, arrays.listing);
 }
 
 UnitedArrays upload(const Device& device, const UnitedBricks& united, bool has_base) {
@@ -199,7 +198,7 @@ Pyramid FieldIndexer::index(const PlacedWorld& world) {
     program.kernel("unite_marks")
         .launch(WorkItem::heavy, arrays.count, arrays.count, base, arrays.numbers,
                 arrays.base_slots, Buffer<uint32_t>(device_, "ranks", world.ranks), arrays,
-                leaf_masks, counts);
+                arrays.of_base, leaf_masks, counts);
     const Numbering numbers = number_united(base.frame, bricks, leaf_masks, counts);
     Pyramid pyramid = allocate_pyramid(device_, base, parts_of(world, numbers),
                                        {numbers.bricks.size() / kWordsPerRecord / kRecordsPerSector,
@@ -211,7 +210,7 @@ Pyramid FieldIndexer::index(const PlacedWorld& world) {
     const Buffer<uint32_t> starts(device_, "index starts", numbers.starts);
     program.kernel("write_united")
         .launch(WorkItem::heavy, arrays.count, arrays.count, base, arrays.base_slots, arrays,
-                starts, WrittenVoxels{pyramid});
+                arrays.of_base, starts, WrittenVoxels{pyramid});
     for (size_t i = 0; i < world.fields.size(); ++i) {
         const PlacedField& field = world.fields[i];
         pyramid.transparent |= field.grid.transparent;
