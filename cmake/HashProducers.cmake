@@ -4,7 +4,7 @@
 # source is generated again when one of them changes.
 function(hash_producers folder output)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/kernels/shared/*.h)
-    foreach(part base scene grid geometry io/image io/mesh io/gltf io/voxels io/arrays io/voxel_art assets analysis stages/voxelize
+    foreach(part base scene grid geometry io/image io/mesh io/mesh_codec io/gltf io/voxels io/arrays io/voxel_art assets analysis stages/voxelize
                  stages/place stages/index stages/instance world)
         file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/${part}/*.?pp)
         list(APPEND files ${sources})

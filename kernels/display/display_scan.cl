@@ -3,8 +3,9 @@
 //
 // One work-item traces VXL_LANES lines through the world, and then through the voxels of each
 // instance that they come to.
-#include "lib/display/crossings.h"
 #include "lib/lanes/work_item.h"
+
+#include "lib/display/crossings.h"
 #include "lib/packets/instances.h"
 #include "shared/display.h"
 #include "shared/scene.h"

@@ -26,7 +26,9 @@ struct ProcessOptions {
 
     /// Lets the program voxelume-vdb-reader, which is installed with the library, read OpenVDB
     /// files: damaged ones make OpenVDB corrupt the memory of the process that reads them. The
-    /// program is started by posix_spawn, once for each file.
+    /// program is started by posix_spawn, once for each file. So is voxelume-mesh-decoder, which
+    /// decodes meshes of glTF files that Draco or meshoptimizer has compressed; without this such
+    /// files are refused.
     bool isolate_readers = false;
 
     /// The maximum number of processes voxelume-kernel-compiler that run in parallel to this

@@ -269,5 +269,25 @@ TEST_F(ApiImport, TheGroupsOfAnObjFileHaveTheMaterialsOfItsLibrary) {
         << "the faces before the first group have none";
 }
 
+/// The process of these tests may start no other.
+TEST_F(ApiImport, CompressedMeshesAreRefusedWhereNoProgramMayDecodeThem) {
+    std::ofstream(folder / "compressed.gltf") << R"({"asset": {"version": "2.0"},
+"extensionsUsed": ["KHR_draco_mesh_compression"], "extensionsRequired": ["KHR_draco_mesh_compression"],
+"buffers": [{"byteLength": 4, "uri": "data:application/octet-stream;base64,RFJBQw=="}],
+"bufferViews": [{"buffer": 0, "byteLength": 4}],
+"accessors": [{"componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]},
+              {"componentType": 5125, "count": 3, "type": "SCALAR"}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "extensions":
+    {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}]}],
+"nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})";
+    try {
+        scene_of_file(folder / "compressed.gltf", {}, {.cache = no_cache});
+        FAIL() << "decoded by whom?";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        EXPECT_THAT(error.what(), HasSubstr("isolate_readers"));
+    }
+}
+
 }  // namespace
 }  // namespace voxelume::v1

@@ -55,7 +55,6 @@ TEST(KernelSlice, HasMacrosTypesAndConstantsThatAreMentioned) {
                     "constant int kThree[1] = {3};\n"
                     "enum { kFour = 4 };\n"
                     "kernel void f(global Pair* x) { x->a = TWICE(kTwo[0]); }\n"),
-              "enum { kFour = 4 };\n"
               "typedef struct { int a, b; } Pair;\n"
               "#define PLUS(x, y) ((x) + (y))\n"
               "#define TWICE(x)     PLUS(x, x)\n"
@@ -101,6 +100,38 @@ TEST(KernelSlice, HasNoFunctionWhoseNameAVariableOrAMemberHas) {
         const std::string kernel = "kernel void f(global int* x) { " + body + " }\n";
         EXPECT_EQ(slice(functions + kernel), "int a() { return 1; }\n" + kernel);
     }
+}
+
+TEST(KernelSlice, HasWhatOtherNamesStandFor) {
+    const std::string g = "int g() { return 1; }\n";
+    const auto kernel = [](const std::string& body) {
+        return "kernel void f(global int* x) { " + body + " }\n";
+    };
+    for (const auto& [parts, body] : {
+             std::pair(g + "#define h g\n", "*x = h();"),
+             std::pair(std::string("typedef enum { kA = 3, kB } Kind;\n"), "*x = kB;"),
+             std::pair(std::string("typedef struct Node { int a; } NodeRecord;\n"),
+                       "struct Node n; *x = n.a;"),
+             std::pair(std::string("#define AXIS x\n"), "*x = p.AXIS;"),
+             std::pair(std::string("#define LANE(i) s##i\n"), "*x = p->LANE(1);"),
+             std::pair(std::string("#define READ(t) t read_##t(t p) { return p; }\nREAD(int)\n;\n"),
+                       "*x = read_int(2);"),
+         })
+        EXPECT_EQ(slice(parts + kernel(body)), parts + kernel(body));
+}
+
+TEST(KernelSlice, HasAllOfASourceWhoseOrderCounts) {
+    const std::string source =
+        "#define A 1\nkernel void f(global int* x) { *x = A; }\n#undef A\n#define A 2\n"
+        "kernel void g(global int* x) { *x = A + VXL_B; }\n";
+    for (const KernelSlice& slice : slice_kernels(source, "-DVXL_B=3 -DVXL_C=4"))
+        EXPECT_EQ(slice.text, "#define VXL_B 3\n" + source) << slice.kernel;
+    const std::string kernel = "kernel void f(global int* x) { *x = g(1); }\n",
+                      g = "int g(int x) { return x; }\n",
+                      pragma = "#pragma OPENCL FP_CONTRACT OFF\n";
+    for (const std::string& other : {g + pragma, "float g(float x) { return x; }\n" + g})
+        EXPECT_EQ(slice("int unused() { return 1; }\n" + other + kernel),
+                  "int unused() { return 1; }\n" + other + kernel);
 }
 
 TEST(KernelSlice, HasTheBranchesThatItsConstantsChoose) {
@@ -155,11 +186,15 @@ TEST(KernelSlice, KeepsConditionsThatOnlyACompilerKnows) {
 TEST(KernelSlice, HasTheNumberThatAMacroOfNumbersStandsFor) {
     const std::string kernel = "kernel void f(global int* x) { *x = VXL_BOTH; }\n";
     EXPECT_EQ(slice("#define VXL_BOTH (VXL_A && !VXL_B)\n" + kernel, "-DVXL_A=1 -DVXL_B=0"),
-              "#define VXL_BOTH (1)\n" + kernel);
+              "#define VXL_BOTH 1\n" + kernel);
+    EXPECT_EQ(slice("#define VXL_BOTH (1 - VXL_A)\n" + kernel, "-DVXL_A=4"),
+              "#define VXL_BOTH (-3)\n" + kernel);
     // An unsigned number makes others unsigned, and what isn't defined here may be further down.
     for (const std::string line :
          {"#define VXL_BOTH (VXL_A ? 1u : 2u)\n", "#define VXL_BOTH (VXL_A + VXL_LATER)\n",
-          "#define VXL_BOTH x[VXL_A]\n"})
+          "#define VXL_BOTH x[VXL_A]\n", "#define VXL_BOTH VXL_A + 1\n",
+          "#define VXL_BOTH (VXL_A) + (1)\n", "#define VXL_BOTH (VXL_A << 31)\n",
+          "#define VXL_BOTH (VXL_A * 010)\n", "#define VXL_BOTH (-2147483647 - VXL_A - VXL_A)\n"})
         EXPECT_EQ(slice(line + kernel, "-DVXL_A=1"), "#define VXL_A 1\n" + line + kernel);
 }
 
@@ -170,6 +205,15 @@ TEST(KernelSlice, HasNoConditionInsideOfADeclaration) {
     constexpr std::string_view kKernel =
         "kernel void f(global int* x\n#if MORE\n, int y\n#endif\n) { *x = 1; }\n";
     EXPECT_EQ(slice(kKernel), kKernel);
+}
+
+TEST(KernelSlice, ReadsDirectivesWithBlanksAndParentheses) {
+    const std::string kernel = "kernel void f(global int* x) { *x = g(); }\n";
+    EXPECT_EQ(slice("  # if(VXL_A)\n\t#define h 1\n#elif(VXL_B == 2)\n  #define g() 2\n# endif\n" +
+                        kernel,
+                    "-DVXL_B=2"),
+              "#define g() 2\n" + kernel);
+    EXPECT_EQ(slice("int/* a */g() { return 1; }\n" + kernel), "int g() { return 1; }\n" + kernel);
 }
 
 TEST(KernelSlice, DoesNotChangeWithCommentsAndNumbersOfLines) {

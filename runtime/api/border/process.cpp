@@ -12,6 +12,7 @@
 #include "runtime/base/main_memory.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/image/exr.hpp"
+#include "runtime/io/mesh_codec/mesh_codec.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/opencl/ahead/kernel_compilers.hpp"
 #include "runtime/opencl/device_call.hpp"
@@ -26,6 +27,7 @@ bool are_applied = false;
 void apply(const v1::ProcessOptions& options) {
     PoclFolder::allow(options.set_driver_environment);
     isolate_vdb_readers(options.isolate_readers);
+    allow_mesh_decoder(options.isolate_readers);
     KernelCompilers::instance().allow(options.set_driver_environment ? options.kernel_compilers
                                                                      : 0);
     if (options.image_threads > 0) set_exr_threads(options.image_threads);

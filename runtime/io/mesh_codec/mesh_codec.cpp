@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <iterator>
@@ -113,6 +114,8 @@ std::vector<Part> parts_of(std::span<const CodecJob> jobs, uint64_t first_byte) 
     return parts;
 }
 
+std::atomic<bool> decoder_is_allowed = true;
+
 void send(const RequestFile& request, const CodecRequest& header, std::span<const CodecJob> jobs) {
     request.append(&header, sizeof header);
     const std::vector<Part> parts = parts_of(jobs, sizeof header + jobs.size() * sizeof(CodecTask));
@@ -153,8 +156,17 @@ uint64_t CodecTask::decoded_bytes() const {
     return sum;
 }
 
+void allow_mesh_decoder(bool is_allowed) {
+    decoder_is_allowed = is_allowed;
+}
+
 std::vector<CodecArrays> decode_meshes(const std::filesystem::path& file,
                                        std::span<const CodecJob> jobs) {
+    if (!jobs.empty() && !decoder_is_allowed)
+        throw Error(ErrorKind::input,
+                    "{}: its meshes are compressed, which only the program {} decodes: set "
+                    "isolate_readers of ProcessOptions, so that the library may start it",
+                    SourcePlace(file.string()), kMeshDecoderName);
     CodecRequest header{jobs.size(), 0};
     for (const CodecJob& job : jobs) {
         check(file, job);

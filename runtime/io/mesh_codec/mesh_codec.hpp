@@ -75,7 +75,11 @@ struct CodecJob {
 /// (32 bits each, at most as many as declared) and one for each attribute.
 using CodecArrays = std::vector<std::vector<uint8_t>>;
 
-/// Decodes all jobs by one run of the helper. Throws Error::input for damaged data, and
+/// Lets decode_meshes start its helper, or forbids it. It may until this is called.
+void allow_mesh_decoder(bool is_allowed);
+
+/// Decodes all jobs by one run of the helper. Throws Error::input for damaged data and where the
+/// helper is forbidden, and
 /// Error::limit or Error::input, before memory is taken, for more elements than so few bytes can
 /// hold or than meshes may have.
 std::vector<CodecArrays> decode_meshes(const std::filesystem::path& file,

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "runtime/opencl/source/source_conditions.hpp"
 #include "runtime/opencl/source/source_parts.hpp"
 
 namespace voxelume {
@@ -25,6 +26,31 @@ SourceConstants constants_of(std::string_view options) {
     return constants;
 }
 
+/// The directives that define some of the constants.
+std::string definitions_of(const std::set<std::string_view>& names,
+                           const SourceConstants& constants) {
+    std::string text;
+    for (const std::string_view name : names) {
+        const auto constant = constants.find(name);
+        if (constant == constants.end()) continue;
+        text.append("#define ").append(name).append(" ").append(constant->second).append("\n");
+    }
+    return text;
+}
+
+/// True if the order of parts counts: functions of one name, or a pragma that isn't before all
+/// functions.
+bool depend_on_order(const std::vector<SourcePart>& parts) {
+    std::set<std::string_view> functions, pragmas;
+    for (const SourcePart& part : parts) {
+        if (part.is_called && !part.is_macro && !functions.insert(part.names[0]).second)
+            return true;
+        const bool is_new = part.text.starts_with("#pragma") && pragmas.insert(part.text).second;
+        if (is_new && !functions.empty()) return true;
+    }
+    return false;
+}
+
 /// Which parts of a source mention which, and which constants.
 class PartGraph {
   public:
@@ -34,11 +60,11 @@ class PartGraph {
             for (const std::string& name : parts_[i].names) by_name_[name].push_back(i);
         for (size_t i = 0; i < parts_.size(); ++i) {
             if (!parts_[i].names.empty()) continue;
-            const auto checked = by_name_.find(parts_[i].checked);
-            if (checked == by_name_.end())
-                unnamed_.push_back(i);
-            else
+            const auto checked = by_name_.find(parts_[i].argument);
+            if (checked != by_name_.end() && is_check(parts_[i]))
                 links_[checked->second.back()].checks.push_back(i);
+            else
+                unnamed_.push_back(i);
         }
     }
 
@@ -49,13 +75,7 @@ class PartGraph {
         Slice slice{std::vector<bool>(parts_.size()), {}, {}};
         for (const size_t part : unnamed_) add(part, slice);
         add(root, slice);
-        std::string text;
-        for (const std::string_view name : slice.constants)
-            text.append("#define ")
-                .append(name)
-                .append(" ")
-                .append(constants_.find(name)->second)
-                .append("\n");
+        std::string text = definitions_of(slice.constants, constants_);
         std::set<std::string_view> directives;
         for (const size_t part : slice.order)
             if (!parts_[part].text.starts_with("#pragma") ||
@@ -77,21 +97,34 @@ class PartGraph {
         std::set<std::string_view> constants;
     };
 
-    /// A function, or a macro with parameters, has no part in a text that declares a variable of
-    /// its name and doesn't call it.
+    /// True if a call of a macro only checks its first argument: it names a type that nothing uses.
+    bool is_check(const SourcePart& part) const {
+        const auto macro = by_name_.find(part.macro);
+        return macro != by_name_.end() && macro->second.size() == 1 &&
+               parts_[macro->second[0]].text.find(") typedef char ") != std::string::npos;
+    }
+
+    /// True if a mention is of something else that has a part's name: a member, or a variable that
+    /// the text declares, where a function of that name isn't called.
+    bool is_other(const Mention& mention, const SourcePart& part, bool is_declared) const {
+        if (part.is_macro && !part.is_called) return false;
+        if (mention.is_member) return !part.is_macro;
+        return part.is_called && !mention.is_call && is_declared;
+    }
+
     void link(size_t part) {
         const std::vector<Mention> words = mentions(parts_[part].text);
         std::set<std::string_view> declared;
         for (const Mention& mention : words)
-            if (mention.is_declared) declared.insert(mention.word);
+            if (mention.is_declared && !parts_[part].is_macro) declared.insert(mention.word);
         Links& links = links_[part];
         for (const Mention& mention : words) {
             const auto constant = constants_.find(mention.word);
             if (constant != constants_.end()) links.constants.push_back(constant->first);
             const auto found = by_name_.find(mention.word);
-            if (mention.is_member || found == by_name_.end()) continue;
+            if (found == by_name_.end()) continue;
             for (const size_t other : found->second)
-                if (mention.is_call || !parts_[other].is_called || !declared.contains(mention.word))
+                if (!is_other(mention, parts_[other], declared.contains(mention.word)))
                     links.parts.push_back(other);
         }
     }
@@ -128,11 +161,19 @@ std::vector<std::string_view> separate_options(std::string_view options) {
 
 std::vector<KernelSlice> slice_kernels(std::string_view source, std::string_view options) {
     const SourceConstants constants = constants_of(options);
-    const std::vector<SourcePart> parts = source_parts(source, constants);
+    const ResolvedSource resolved = resolve_conditions(source, constants);
+    const std::vector<SourcePart> parts = source_parts(resolved.text);
     PartGraph graph(parts, constants);
+    const bool has_order = resolved.has_order || depend_on_order(parts);
+    std::string whole;
+    if (has_order) {
+        const std::vector<std::string_view> words = identifiers(resolved.text);
+        whole = definitions_of({words.begin(), words.end()}, constants) + resolved.text;
+    }
     std::vector<KernelSlice> slices;
     for (size_t i = 0; i < parts.size(); ++i)
-        if (parts[i].is_kernel) slices.push_back({parts[i].names[0], graph.slice(i)});
+        if (parts[i].is_kernel)
+            slices.push_back({parts[i].names[0], has_order ? whole : graph.slice(i)});
     return slices;
 }
 

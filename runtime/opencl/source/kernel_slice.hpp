@@ -14,14 +14,16 @@ std::vector<std::string_view> separate_options(std::string_view options);
 /// A kernel and the text of the code that it needs.
 struct KernelSlice {
     std::string kernel;  ///< its name
-    std::string text;    ///< a source of this kernel alone, in the order of the whole source
+    std::string text;    ///< a source of this kernel alone, in an order of its own
 };
 
-/// The slices of all kernels in a `source` without includes.
+/// The slices of all kernels in a `source` without includes. Where the order of its text counts,
+/// each has all of it.
 ///
 /// A slice has the functions, macros, types and constants that the kernel mentions, directly or
-/// indirectly, and everything whose name is unknown. Comments are left out, as are directives of
-/// empty conditions. The constants of `options` (-DNAME=VALUE) that it mentions come first. So
+/// indirectly, and everything whose name is unknown, each behind what it mentions. Comments are
+/// left out, as are conditions that can be decided. The constants of `options` (-DNAME=VALUE) that
+/// it mentions come first. So
 /// kernels with equal slices are equal, whatever else their programs hold: the closure over names
 /// is like that of linkers over sections (--gc-sections).
 std::vector<KernelSlice> slice_kernels(std::string_view source, std::string_view options);

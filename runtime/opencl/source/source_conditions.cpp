@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/opencl/source/source_macros.hpp"
+#include "runtime/opencl/source/source_parts.hpp"
 
 namespace voxelume {
 namespace {
@@ -29,6 +29,7 @@ std::string without_comments(std::string_view source) {
         else if (source.starts_with("\\\n"))
             skipped = 2;
         if (skipped == 0) text += source.substr(0, 1);
+        if (source.starts_with("/*")) text += ' ';
         source.remove_prefix(std::min(std::max<size_t>(skipped, 1), source.size()));
     }
     return text;
@@ -39,6 +40,7 @@ struct Directive {
     std::string_view word, rest;
     bool opens() const { return word.starts_with("if"); }
     bool closes() const { return word == "endif"; }
+    std::string text() const { return fmt::format("#{}{}", word, rest); }
 };
 
 std::optional<Directive> directive(std::string_view line) {
@@ -47,7 +49,8 @@ std::optional<Directive> directive(std::string_view line) {
     if (!line.starts_with('#')) return std::nullopt;
     line.remove_prefix(1);
     line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-    const size_t end = std::min(line.find_first_of(kBlanks), line.size());
+    size_t end = 0;
+    while (end < line.size() && is_of_identifier(line[end])) ++end;
     return Directive{line.substr(0, end), line.substr(end)};
 }
 
@@ -60,14 +63,14 @@ class Conditions {
         const std::optional<Directive> found = directive(line);
         if (undecided_depth_ > 0) return take_undecided(line, found);
         if (found && (found->opens() || found->closes() || found->word.starts_with("el")))
-            return take_condition(line, *found);
+            return take_condition(*found);
         if (!is_active() || (found && found->word == "line")) return;
-        if (found && found->word == "define") return take_definition(line, found->rest);
+        if (found && found->word == "define") return take_definition(found->rest);
         if (found && found->word == "undef") macros_.forget(found->rest);
-        keep(line);
+        keep(line, found);
     }
 
-    std::string text() && { return std::move(text_); }
+    ResolvedSource resolved() && { return {std::move(text_), macros_.changes()}; }
 
   private:
     /// A condition around the line at hand.
@@ -82,10 +85,18 @@ class Conditions {
 
     /// A macro that stands for a number is defined as that, so that a text which has it doesn't
     /// depend on the constants that decide it.
-    void take_definition(std::string_view line, std::string_view rest) {
+    void take_definition(std::string_view rest) {
         const std::string name = macros_.define(rest);
-        if (const std::optional<int64_t> value = macros_.value_of_macro(name))
-            text_ += fmt::format("#define {} ({})\n", name, *value);
+        const std::optional<int64_t> value = macros_.value_of_macro(name);
+        if (!value) return keep(fmt::format("#define{}", rest));
+        const auto number = *value < 0 ? fmt::format("({})", *value) : fmt::format("{}", *value);
+        keep(fmt::format("#define {} {}", name, number));
+    }
+
+    /// A directive begins its line.
+    void keep(std::string_view line, const std::optional<Directive>& found) {
+        if (found)
+            keep(found->text());
         else
             keep(line);
     }
@@ -94,16 +105,16 @@ class Conditions {
 
     /// A line of a condition that can't be decided. What it defines may or may not be defined.
     void take_undecided(std::string_view line, const std::optional<Directive>& found) {
-        keep(line);
+        keep(line, found);
         if (!found) return;
         if (found->opens()) ++undecided_depth_;
         if (found->closes()) --undecided_depth_;
         if (found->word == "define" || found->word == "undef") macros_.doubt(found->rest);
     }
 
-    void take_condition(std::string_view line, const Directive& found) {
-        if (found.opens()) return open(line, found);
-        if (levels_.empty()) return keep(line);  // an end without a beginning
+    void take_condition(const Directive& found) {
+        if (found.opens()) return open(found);
+        if (levels_.empty()) return keep(found.text());  // an end without a beginning
         if (found.closes()) return levels_.pop_back();
         Level& level = levels_.back();
         level.is_active = false;
@@ -113,10 +124,10 @@ class Conditions {
             return;
         }
         levels_.pop_back();
-        decide(macros_.value(found.rest), "#if" + std::string(found.rest));
+        decide(macros_.value(found.rest), fmt::format("#if{}", found.rest));
     }
 
-    void open(std::string_view line, const Directive& found) {
+    void open(const Directive& found) {
         if (!is_active()) {
             levels_.push_back({true, false});
             return;
@@ -126,7 +137,7 @@ class Conditions {
             value = macros_.value(found.rest);
         else if (const std::optional<bool> is_defined = macros_.is_defined(found.rest))
             value = *is_defined == (found.word == "ifdef");
-        decide(value, line);
+        decide(value, found.text());
     }
 
     void decide(const std::optional<int64_t>& value, std::string_view line) {
@@ -143,7 +154,7 @@ class Conditions {
 
 }  // namespace
 
-std::string resolve_conditions(std::string_view source, const SourceConstants& constants) {
+ResolvedSource resolve_conditions(std::string_view source, const SourceConstants& constants) {
     const std::string whole = without_comments(source);
     Conditions conditions(constants);
     for (std::string_view left = whole; !left.empty();) {
@@ -151,7 +162,7 @@ std::string resolve_conditions(std::string_view source, const SourceConstants& c
         conditions.take(left.substr(0, end));
         left.remove_prefix(std::min(end + 1, left.size()));
     }
-    return std::move(conditions).text();
+    return std::move(conditions).resolved();
 }
 
 }  // namespace voxelume

@@ -2,15 +2,12 @@
 // Conditions of a kernel source that its constants decide: what a preprocessor would leave out.
 #pragma once
 
-#include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 
-namespace voxelume {
+#include "runtime/opencl/source/source_macros.hpp"
 
-/// The constants of a compiler's options, -DNAME=VALUE, by name.
-using SourceConstants = std::map<std::string, std::string, std::less<>>;
+namespace voxelume {
 
 /// A source without comments, with only those branches of its #if, #ifdef and #ifndef that hold.
 ///
@@ -18,6 +15,10 @@ using SourceConstants = std::map<std::string, std::string, std::less<>>;
 /// undefined. A condition that depends on anything else, such as a compiler's own macros, stays
 /// with everything in it. `#line` and what is for C++ are left out, and lines that end in a
 /// backslash are joined to the next.
-std::string resolve_conditions(std::string_view source, const SourceConstants& constants);
+struct ResolvedSource {
+    std::string text;
+    bool has_order = false;  ///< the text's order counts, since it defines a macro in several ways
+};
+ResolvedSource resolve_conditions(std::string_view source, const SourceConstants& constants);
 
 }  // namespace voxelume

@@ -80,9 +80,15 @@ class Expression {
         while (!next().empty() && std::ranges::count(kOperators[level], next()) > 0) {
             const std::string_view sign = next();
             ++at_;
-            left = apply(sign, left, binary(level + 1));
+            left = checked(apply(sign, left, binary(level + 1)));
         }
         return left;
+    }
+
+    /// A number beyond 32 bits has another type than int, or is none.
+    static int64_t checked(int64_t value) {
+        if (value != int32_t(value)) throw Undecided();
+        return value;
     }
 
     static int64_t apply(std::string_view sign, int64_t a, int64_t b) {
@@ -109,7 +115,7 @@ class Expression {
         if (token.empty()) throw Undecided();
         ++at_;
         if (token == "!") return int64_t(unary() == 0);
-        if (token == "-") return -unary();
+        if (token == "-") return checked(-unary());
         if (token == "~") return ~unary();
         if (token == "(") {
             const int64_t inner = choice();
@@ -122,8 +128,10 @@ class Expression {
     static int64_t number(std::string_view token) {
         const bool is_hex = token.starts_with("0x") || token.starts_with("0X");
         if (is_hex) token.remove_prefix(2);
+        if (!is_hex && token.size() > 1 && token[0] == '0' && is_decimal_digit(token[1]))
+            throw Undecided();  // an octal number
         const size_t digits = std::min(token.find_first_of("uUlL"), token.size());
-        int32_t value = 0;  // C's numbers, products and sums of a few of which fit 64 bits
+        int32_t value = 0;
         const auto [end, error] =
             std::from_chars(token.data(), token.data() + digits, value, is_hex ? 16 : 10);
         if (error != std::errc() || end != token.data() + digits || digits == 0) throw Undecided();
@@ -151,6 +159,18 @@ std::vector<std::vector<std::string>> arguments_of(const std::vector<std::string
     throw Undecided();
 }
 
+/// True if tokens mean the same next to any operator: a single one, or all in parentheses.
+bool is_operand(const std::vector<std::string>& tokens) {
+    if (tokens.size() == 1) return true;
+    if (tokens.front() != "(") return false;
+    int depth = 0;
+    for (size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i] == "(") ++depth;
+        if (tokens[i] == ")" && --depth == 0) return i + 1 == tokens.size();
+    }
+    return false;
+}
+
 std::string first_word(std::string_view text) {
     const std::vector<std::string_view> words = identifiers(text);
     return words.empty() ? std::string() : std::string(words[0]);
@@ -174,12 +194,14 @@ std::string MacroTable::define(std::string_view text) {
         text.remove_prefix(end + 1);
     }
     macro.body = tokens_of(text);
-    macros_[name] = std::move(macro);
+    const auto [before, is_new] = macros_.try_emplace(name, macro);
+    changes_ |= !is_new && before->second != macro;
+    before->second = std::move(macro);
     return name;
 }
 
 void MacroTable::forget(std::string_view text) {
-    macros_.erase(first_word(text));
+    changes_ |= macros_.erase(first_word(text)) > 0;
 }
 
 void MacroTable::doubt(std::string_view text) {
@@ -252,7 +274,7 @@ std::optional<int64_t> MacroTable::value_of_macro(std::string_view name) const {
     if (found == macros_.end() || !found->second.is_known || found->second.has_parameters)
         return std::nullopt;
     const Tokens& body = found->second.body;
-    if (std::ranges::none_of(body, is_identifier)) return std::nullopt;
+    if (std::ranges::none_of(body, is_identifier) || !is_operand(body)) return std::nullopt;
     try {
         const Tokens tokens = expand(body, Undefined::is_unknown, {});
         const bool is_int = std::ranges::none_of(tokens, [](const std::string& token) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -10,9 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/opencl/source/source_conditions.hpp"
-
 namespace voxelume {
+
+/// The constants of a compiler's options, -DNAME=VALUE, by name.
+using SourceConstants = std::map<std::string, std::string, std::less<>>;
 
 /// The macros that are defined at a line of a source.
 class MacroTable {
@@ -37,10 +39,15 @@ class MacroTable {
     /// int. Nothing for others.
     std::optional<int64_t> value_of_macro(std::string_view name) const;
 
+    /// True if a macro was defined in two ways, or forgotten: what a name stands for depends on
+    /// where it is used.
+    bool changes() const { return changes_; }
+
   private:
     struct Macro {
         bool is_known = true, has_parameters = false;
         std::vector<std::string> parameters, body;  ///< the body in tokens
+        bool operator==(const Macro&) const = default;
     };
     using Tokens = std::vector<std::string>;
     /// The names of macros that are being expanded, which must not be expanded again.
@@ -54,6 +61,7 @@ class MacroTable {
     Tokens expand_macro(const Macro& macro, const Tokens& tokens, size_t& at) const;
 
     std::map<std::string, Macro, std::less<>> macros_;
+    bool changes_ = false;
 };
 
 }  // namespace voxelume

@@ -26,6 +26,7 @@ SourcePart plain_directive(std::string line) {
     SourcePart part;
     if (words.size() > 1 && words[0] == "define") {
         part.names.emplace_back(words[1]);
+        part.is_macro = true;
         const auto end = size_t(words[1].data() + words[1].size() - line.data());
         part.is_called = end < line.size() && line[end] == '(';
     }
@@ -45,6 +46,7 @@ SourcePart condition(std::string text) {
         has_others |= !line.starts_with('#') && !words.empty();
     }
     if (has_others) part.names.clear();
+    part.is_macro = true;
     part.text = std::move(text);
     return part;
 }
@@ -79,13 +81,24 @@ bool is_function(std::string_view outer) {
     return words.size() > 1 && words[0] != "typedef";
 }
 
-/// The name of a type or a constant; empty for declarations of several names or none.
-std::string name_of_declaration(std::string_view outer) {
+/// The names that a type or a constant has: its own, that behind `struct`, and for an enumeration
+/// whatever it names. Empty for declarations of several names or none.
+std::vector<std::string> names_of_declaration(std::string_view text, std::string_view outer) {
+    const std::vector<std::string_view> all = identifiers(text);
+    if (std::ranges::find(all, "enum") != all.end()) {
+        std::vector<std::string> every(all.begin(), all.end());
+        std::erase_if(every, [](const auto& word) { return word == "enum" || word == "typedef"; });
+        return every;
+    }
     const std::vector<std::string_view> words =
         identifiers(outer.substr(0, outer.find_first_of("[=")));
     if (words.size() < 2 || outer.find(',') != std::string_view::npos) return {};
     const bool has_value = outer.find('=') != std::string_view::npos;
-    return words[0] == "typedef" || has_value ? std::string(words.back()) : std::string();
+    if (words[0] != "typedef" && !has_value) return {};
+    std::vector<std::string> names = {std::string(words.back())};
+    for (size_t i = 0; i + 2 < words.size(); ++i)
+        if (words[i] == "struct" || words[i] == "union") names.emplace_back(words[i + 1]);
+    return names;
 }
 
 bool is_macro_call(std::string_view outer) {
@@ -102,10 +115,11 @@ SourcePart declaration(std::string text) {
         part.names.emplace_back(words.back());
         part.is_kernel = std::ranges::find(words, "kernel") != words.end();
         part.is_called = true;
-    } else if (std::string name = name_of_declaration(outer); !name.empty()) {
-        part.names.push_back(std::move(name));
+    } else if (auto names = names_of_declaration(text, outer); !names.empty()) {
+        part.names = std::move(names);
     } else if (const auto words = identifiers(text); words.size() > 1 && is_macro_call(outer)) {
-        part.checked = words[1];
+        part.macro = words[0];
+        part.argument = words[1];
     }
     part.text = std::move(text);
     return part;
@@ -182,8 +196,7 @@ bool follows_type(std::string_view before) {
 
 }  // namespace
 
-std::vector<SourcePart> source_parts(std::string_view source, const SourceConstants& constants) {
-    const std::string resolved = resolve_conditions(source, constants);
+std::vector<SourcePart> source_parts(std::string_view resolved) {
     PartReader reader;
     for (std::string_view left = resolved; !left.empty();) {
         const size_t end = std::min(left.find('\n'), left.size());

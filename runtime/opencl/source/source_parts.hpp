@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/opencl/source/source_conditions.hpp"
-
 namespace voxelume {
 
 /// A definition or a declaration at the top of a source, a directive, or a whole condition that
@@ -16,21 +14,21 @@ struct SourcePart {
     std::string text;
     std::vector<std::string> names;  ///< the names that it defines; empty if that can't be told
     bool is_kernel = false;
+    bool is_macro = false;
     bool is_called = false;  ///< a function, or a macro with parameters
-    /// The first argument of a macro that is called at the top, such as a check of a type's size.
-    std::string checked;
+    /// The macro that is called at the top, and its first argument: it may check a type's size.
+    std::string macro, argument;
 };
 
-/// The parts of an OpenCL source that is compiled with these constants, without comments; see
-/// resolve_conditions.
-std::vector<SourcePart> source_parts(std::string_view source, const SourceConstants& constants);
+/// The parts of an OpenCL source that resolve_conditions has gone through.
+std::vector<SourcePart> source_parts(std::string_view resolved);
 
 /// An identifier in a text.
 struct Mention {
     std::string_view word;
     bool is_member = false;    ///< it stands behind . or ->
     bool is_call = false;      ///< it stands before an opening parenthesis
-    bool is_declared = false;  ///< it stands behind a type, as a variable does that is declared
+    bool is_declared = false;  ///< it stands behind a type, as a variable that is declared does
 };
 
 /// The identifiers in a text, in order and with repeats.

@@ -22,11 +22,12 @@ struct CurveColors {
 };
 
 /// One row for each of kSurfaceKinds, in their order.
-constexpr std::array<CurveColors, kSurfaceKinds.size()> kCurveColors = {{
+constexpr auto kCurveColors = std::to_array<CurveColors>({
     {"#b35900", "#e0a060"},  // cubes
     {"#1f6fb4", "#7fb2e0"},  // smooth
     {"#2e8540", "#86c795"},  // exact
-}};
+});
+static_assert(kCurveColors.size() == kSurfaceKinds.size());
 
 const char* color_of(Surface surface, Placement placement) {
     const CurveColors& colors = kCurveColors[size_t(surface)];
