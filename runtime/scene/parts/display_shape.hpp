@@ -2,7 +2,7 @@
 // The volumetric display VD_E as values, and one descriptor row for each shape of it.
 //
 // A shape is added with an enumerator of DisplayShape, a row of display_shapes(), and its branch of
-// the functions in kernels/lib/traverse/display_shape.h.
+// the functions in kernels/lib/traverse/display_shape.h. CONTRIBUTING.md lists the other places.
 #pragma once
 
 #include <cstdint>

@@ -17,6 +17,7 @@ enum class Surface : uint8_t {
 
 /// The properties of a kind of surface. A new kind needs a row of kSurfaceKinds, code that fills
 /// its voxels (stages/voxelize, stages/place) and code that intersects rays (kernels/lib/surface).
+/// CONTRIBUTING.md lists the other places.
 struct SurfaceKind {
     Surface surface;
     std::string_view name;  ///< in scene files, options and .vxm files
