@@ -186,7 +186,7 @@ std::string MacroTable::define(std::string_view text) {
     const std::string name = first_word(text);
     text.remove_prefix(std::min(text.find(name) + name.size(), text.size()));
     Macro macro;
-    if (text.starts_with("(")) {
+    if (text.starts_with('(')) {
         const size_t end = std::min(text.find(')'), text.size() - 1);
         macro.has_parameters = true;
         for (const std::string_view parameter : identifiers(text.substr(0, end)))
