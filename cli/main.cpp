@@ -22,7 +22,6 @@
 #include "cli/shared/checks.hpp"
 #include "cli/shared/commands.hpp"
 #include "cli/shared/complaint.hpp"
-#include "cli/shared/idle_cores.hpp"
 #include "cli/shared/interrupt.hpp"
 #include "cli/shared/settings.hpp"
 
@@ -135,7 +134,7 @@ int kernel_compilers(const std::string& command) {
     if (std::ranges::find(kHelped, command) == kHelped.end()) return 0;
     if (const char* const value = std::getenv("VOXELUME_COMPILERS"); value && *value)
         return std::clamp(std::atoi(value), 0, kMaxKernelCompilers);
-    return int(idle_cores() > 0);
+    return int(voxelume::idle_cores() > 0);
 }
 
 }  // namespace

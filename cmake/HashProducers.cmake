@@ -4,8 +4,17 @@
 # source is generated again when one of them changes.
 function(hash_producers folder output)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/kernels/shared/*.h)
-    foreach(part base scene grid geometry io/image io/mesh io/mesh_codec io/gltf io/voxels io/arrays io/voxel_art assets analysis stages/voxelize
-                 stages/place stages/index stages/instance world)
+    set(readers image mesh mesh_codec gltf voxels arrays voxel_art)
+    set(others vdb volume) # a model's own distances aren't kept, and volumetric images are no models
+    file(GLOB formats RELATIVE ${folder}/io CONFIGURE_DEPENDS ${folder}/io/*)
+    foreach(format ${formats})
+        if(IS_DIRECTORY ${folder}/io/${format} AND NOT format IN_LIST readers AND NOT format IN_LIST others)
+            message(FATAL_ERROR "cmake/HashProducers.cmake: do models come from runtime/io/${format}? List it")
+        endif()
+    endforeach()
+    list(TRANSFORM readers PREPEND io/)
+    foreach(part base scene grid geometry ${readers} assets analysis stages/voxelize stages/place stages/index
+                 stages/instance world)
         file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/${part}/*.?pp)
         list(APPEND files ${sources})
     endforeach()

@@ -3,15 +3,15 @@
 //
 // One work-item traces VXL_LANES lines through the world, and then through the voxels of each
 // instance that they come to.
-#include "lib/lanes/work_item.h"
+#include "lib/lanes/work_item.h"  // first, since it says how all of the code is compiled
 
 #include "lib/display/crossings.h"
 #include "lib/packets/instances.h"
 #include "shared/display.h"
 #include "shared/scene.h"
 
-/// Of each line the number of its crossings, and where and with what they are: the parameters that
-/// `bind` of CrossingArrays sets, in its order.
+/// The number of each line's crossings, their coordinates and the surfaces that are crossed: the
+/// parameters that `bind` of CrossingArrays sets, in its order.
 #define VXL_CROSSINGS_PARAMETERS \
     global uint *restrict counts, global float *restrict crossings, global uint *restrict surfaces
 

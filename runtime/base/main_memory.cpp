@@ -29,16 +29,6 @@ uint64_t limit_in(const fs::path& file) {
     return stream >> bytes ? bytes : kNoLimit;
 }
 
-/// The lowest limit of a group and of the groups around it. A container often sees its own group as
-/// the root, while the group's path is the one outside: folders that don't exist set no limit.
-uint64_t limit_of_group(const fs::path& root, const fs::path& group, const char* file) {
-    uint64_t min = limit_in(root / file);
-    fs::path folder = root;
-    for (const fs::path& part : group.relative_path())
-        min = std::min(min, limit_in((folder /= part) / file));
-    return min;
-}
-
 uint64_t process_limit(int resource) {
     rlimit limit{};
     if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kNoLimit;
@@ -48,8 +38,8 @@ uint64_t process_limit(int resource) {
 /// The memory that the machine and the system allow; doesn't change while a program runs.
 uint64_t allowed_memory() {
     const uint64_t machine = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
-    return std::min({machine, control_group_memory("/proc/self/cgroup", "/sys/fs/cgroup"),
-                     process_limit(RLIMIT_DATA), process_limit(RLIMIT_AS)});
+    return std::min(
+        {machine, control_group_memory({}), process_limit(RLIMIT_DATA), process_limit(RLIMIT_AS)});
 }
 
 /// Bytes of the process that are in main memory; 0 where the system doesn't tell.
@@ -87,21 +77,12 @@ uint64_t chosen_memory_limit() {
     return chosen_limit;
 }
 
-uint64_t control_group_memory(const fs::path& groups, const fs::path& mount) {
-    std::ifstream stream(groups);
+uint64_t control_group_memory(const ControlGroupFiles& files) {
     uint64_t min = kNoLimit;
-    // "4:memory:/job" of version 1, "0::/job" of version 2.
-    for (std::string line; std::getline(stream, line);) {
-        const size_t first = line.find(':'), second = line.find(':', first + 1);
-        if (second == std::string::npos) continue;
-        const std::string controllers =
-            fmt::format(",{},", line.substr(first + 1, second - first - 1));
-        const fs::path group = line.substr(second + 1);
-        if (controllers == ",,")
-            min = std::min(min, limit_of_group(mount, group, "memory.max"));
-        else if (controllers.find(",memory,") != std::string::npos)
-            min = std::min(min, limit_of_group(mount / "memory", group, "memory.limit_in_bytes"));
-    }
+    visit_control_groups(files, "memory", [&](const fs::path& group, ControlGroupVersion version) {
+        const bool is_second = version == ControlGroupVersion::second;
+        min = std::min(min, limit_in(group / (is_second ? "memory.max" : "memory.limit_in_bytes")));
+    });
     return min;
 }
 

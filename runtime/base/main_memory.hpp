@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "runtime/base/control_groups.hpp"
+
 namespace voxelume {
 
 /// Bytes: those of the machine, or fewer where the process's control group (a container, a job of
@@ -26,10 +28,6 @@ uint64_t chosen_memory_limit();
 
 /// The minimum of the limits that control groups of both versions set for a process. Without any,
 /// it is the largest number.
-///
-/// @param groups  the process's groups, as /proc/self/cgroup lists them
-/// @param mount   the folder of all groups: /sys/fs/cgroup
-uint64_t control_group_memory(const std::filesystem::path& groups,
-                              const std::filesystem::path& mount);
+uint64_t control_group_memory(const ControlGroupFiles& files);
 
 }  // namespace voxelume

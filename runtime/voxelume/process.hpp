@@ -48,6 +48,12 @@ struct ProcessOptions {
 /// once.
 void configure(const ProcessOptions& options);
 
+/// The cores that the process may use, by its affinity and its control groups (containers, jobs of
+/// farms), less the threads of the whole machine that are running now, one of which belongs to this
+/// process: 0 or less on a busy machine. It helps to choose `kernel_compilers`. Any thread may call
+/// it, before `configure`, too.
+int idle_cores();
+
 /// Deletes files that the process has begun to write and not finished: the hidden files next to
 /// outputs and the folder of its kernels. It is for a program that has to end while calls of the
 /// library still run; these calls fail if they continue. It also ends the processes that compile

@@ -22,7 +22,7 @@ class MainMemory : public FileTest {
     /// The memory that the groups of `lines` allow; `folder` holds all groups.
     uint64_t allowed(const std::string& lines) {
         put_bytes(folder / "groups", lines);
-        return control_group_memory(folder / "groups", folder);
+        return control_group_memory({folder / "groups", folder});
     }
     void limit(const std::filesystem::path& file, const std::string& bytes) {
         std::filesystem::create_directories((folder / file).parent_path());
@@ -77,13 +77,22 @@ TEST_F(MainMemory, OfAGroupOfVersion1IsThatOfItsMemoryController) {
     EXPECT_EQ(allowed("4:cpuset:/docker\n"), kNone);
 }
 
+TEST_F(MainMemory, OfGroupsOfBothVersionsIsTheirMinimum) {
+    limit("unified/cgroup.controllers", "memory");
+    limit("unified/job/memory.max", "4000000");
+    limit("memory/job/memory.limit_in_bytes", "6000000");
+    EXPECT_EQ(allowed("4:memory:/job\n1:cpu:/job\n0::/job\n"), 4000000u);
+    limit("memory/job/memory.limit_in_bytes", "3000000");
+    EXPECT_EQ(allowed("4:memory:/job\n1:cpu:/job\n0::/job\n"), 3000000u);
+}
+
 TEST_F(MainMemory, OfAContainerIsThatOfTheRootThatItSees) {
     limit("memory.max", "7000000");
     EXPECT_EQ(allowed("0::/../../a-path-of-outside\n"), 7000000u);
 }
 
 TEST_F(MainMemory, HasNoLimitWhereFilesAreMissingOrDamaged) {
-    EXPECT_EQ(control_group_memory(folder / "none", folder), kNone);
+    EXPECT_EQ(control_group_memory({folder / "none", folder}), kNone);
     EXPECT_EQ(allowed("no colons\n:\n\n"), kNone);
     limit("memory.max", "lots");
     EXPECT_EQ(allowed("0::/\n"), kNone);

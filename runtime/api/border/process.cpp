@@ -9,6 +9,7 @@
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/base/files/disk_cache.hpp"
 #include "runtime/base/files/temporary_files.hpp"
+#include "runtime/base/idle_cores.hpp"
 #include "runtime/base/main_memory.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/image/exr.hpp"
@@ -58,6 +59,10 @@ void configure(const ProcessOptions& options) {
         const std::lock_guard lock(options_mutex);
         apply(options);
     });
+}
+
+int idle_cores() {
+    return api::guarded([] { return count_idle_cores(); });
 }
 
 void limit_memory(uint64_t bytes) {

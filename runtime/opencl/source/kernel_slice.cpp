@@ -2,7 +2,6 @@
 #include "runtime/opencl/source/kernel_slice.hpp"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <unordered_map>
 #include <utility>

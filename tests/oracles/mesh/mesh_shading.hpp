@@ -18,7 +18,7 @@ struct ShadedTriangle {
 struct ShadedHit {
     double t = 0;
     size_t triangle = 0;
-    /// Of unit length: the corners' unit normals, weighted by the corners' shares of the point.
+    /// The mean of the corners' unit normals by the corners' weights at the point, of unit length.
     glm::dvec3 normal{0};
 };
 

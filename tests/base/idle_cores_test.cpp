@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/shared/idle_cores.hpp"
+#include "runtime/base/idle_cores.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>
 
 #include "tests/support/file_fixture.hpp"
 
-namespace voxelume::cli {
+namespace voxelume {
 namespace {
 
 class IdleCores : public FileTest {
@@ -20,7 +20,7 @@ class IdleCores : public FileTest {
         std::filesystem::create_directories((folder / file).parent_path());
         put_bytes(folder / file, line + "\n");
     }
-    int idle() const { return idle_cores({folder / "load", folder / "groups", folder}); }
+    int idle() const { return count_idle_cores({folder / "groups", folder}, folder / "load"); }
 
     const int cores = [] {
         cpu_set_t bound;
@@ -43,10 +43,9 @@ class LimitedIdleCores : public IdleCores {
     void SetUp() override {
         IdleCores::SetUp();
         if (cores < 2) GTEST_SKIP() << "no limit shows on the one core that this process has";
-        put("cgroup.controllers", "cpu memory");  // version 2 alone
     }
     /// Version 1 is mounted, too.
-    void mount_both() const { std::filesystem::remove(folder / "cgroup.controllers"); }
+    void mount_both() const { put("unified/cgroup.controllers", "cpu memory"); }
 };
 
 TEST_F(LimitedIdleCores, AreThoseThatAControlGroupAllows) {
@@ -118,4 +117,4 @@ TEST_F(LimitedIdleCores, AreThoseThatTheProcessIsBoundTo) {
 }
 
 }  // namespace
-}  // namespace voxelume::cli
+}  // namespace voxelume
