@@ -76,6 +76,7 @@ def write_dictionary(file, words):
     file.write_text("".join(f'"{word}"\n' for word in quoted))
 
 
+LARGEST = 10000  # bytes of a scene; more are slow to try
 COMMANDS = [bytes([i]) + b"a.json\n-o\nb.exr\n--size\n64x48\n--frames\n1-9x2" for i in range(17)]
 SETTINGS = b'# settings\ndevice = cpu\ncache_size = 4GB\ncache_dir = "~/a"\n'
 
@@ -88,7 +89,7 @@ def main():
     folder, program = given.folder, given.program.resolve()
     seeds = dict(SEEDS, words=[*COMMANDS, SETTINGS])
     seeds["json"] = [file.read_bytes() for file in sorted((ROOT / "scenes").glob("*.json"))
-                     if not file.name.endswith("schema.json")]
+                     if not file.name.endswith("schema.json") and file.stat().st_size < LARGEST]
     for name, files in made_by(program).items():
         seeds[name] = [*seeds.get(name, []), *files]
     for name, files in seeds.items():

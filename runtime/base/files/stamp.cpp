@@ -7,6 +7,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -82,7 +83,12 @@ class StampReader {
   public:
     explicit StampReader(int descriptor) : descriptor_(descriptor) {}
 
+    /// False when the file can't be read. Fewer bytes than `count` are the last ones.
     bool read(std::string& bytes, size_t count) {
+        struct stat status {};
+        if (fstat(descriptor_, &status) != 0) return false;
+        const size_t size = size_t(status.st_size);
+        count = std::min(count, size - std::min(size, position_));
         bytes.resize(count);
         size_t filled = 0;
         while (filled < count) {

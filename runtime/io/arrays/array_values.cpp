@@ -167,7 +167,9 @@ void for_each_code(const CellArray& array, const std::vector<uint64_t>& counts, 
 
 ArraySummary summary_of_array(const CellArray& array) {
     if (array.is_color()) InputFile(array.data).refuse("it holds colours, which have no values");
-    if (bytes_in_memory(array.type) <= 2) {
+    // Values that are fewer than their codes are looked at one by one.
+    const size_t bytes = bytes_in_memory(array.type);
+    if (bytes <= 2 && array.cells() >= size_t{1} << 8 * bytes) {
         const std::vector<uint64_t> counts = count_codes(array);
         return summary_of([&](const auto& use) { for_each_code(array, counts, use); });
     }

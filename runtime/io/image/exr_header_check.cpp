@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace voxelume {
 namespace {
@@ -42,11 +44,46 @@ class Walk {
     uint64_t position_ = 0;
 };
 
-/// Checks the lengths inside of an attribute's value if its type has some.
+/// The bytes of the types of attributes that OpenEXR reads without regard to the length that the
+/// file declares. Where it is another one, OpenEXR goes on reading at another position than this
+/// check does.
+constexpr std::pair<std::string_view, uint64_t> kSizes[] = {
+    {"box2f", 16},         {"box2i", 16},    {"chromaticities", 32},
+    {"compression", 1},    {"double", 8},    {"envmap", 1},
+    {"deepImageState", 1}, {"float", 4},     {"int", 4},
+    {"keycode", 28},       {"lineOrder", 1}, {"m33d", 72},
+    {"m33f", 36},          {"m44d", 128},    {"m44f", 64},
+    {"rational", 8},       {"tiledesc", 9},  {"timecode", 8},
+    {"v2d", 16},           {"v2f", 8},       {"v2i", 8},
+    {"v3d", 24},           {"v3f", 12},      {"v3i", 12}};
+
+bool has_its_size(const std::string& type, uint64_t size) {
+    if (type == "floatvector") return size % 4 == 0;
+    if (type == "idmanifest") return size >= 4;
+    const auto* row = std::ranges::find(kSizes, type, [](const auto& r) { return r.first; });
+    return row == std::end(kSizes) || row->second == size;
+}
+
+/// True if a list of channels, behind which an empty name is, ends where its attribute does.
+bool are_channels_whole(Walk walk, uint64_t size) {
+    constexpr uint64_t kChannel = 16;  // bytes behind a channel's name
+    const uint64_t end = walk.left() - size;
+    while (walk.left() > end) {
+        if (walk.name().empty()) return walk.left() == end;
+        if (walk.left() < end + kChannel) return false;
+        walk.skip(kChannel);
+    }
+    return false;
+}
+
+/// Checks the length of an attribute's value, and those inside of it if its type has some.
 void check_value(Walk walk, const std::string& name, const std::string& type, uint64_t size) {
     const auto fail = [&] {
         walk.fail(fmt::format("its attribute {} declares more than it has", name));
     };
+    if (!has_its_size(type, size))
+        walk.fail(fmt::format("its attribute {} has {} bytes, which is no {}", name, size, type));
+    if (type == "chlist" && !are_channels_whole(walk, size)) fail();
     if (type == "preview") {
         const uint64_t width = size < 8 ? 0 : walk.number(), height = size < 8 ? 0 : walk.number();
         if (size < 8 || width > size || height > size || size != 8 + 4 * width * height) fail();

@@ -28,7 +28,7 @@ std::string compute_checksum(const InputFile& file, uint64_t offset) {
     const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
                                                                          XXH3_freeState);
     XXH3_64bits_reset(state.get());
-    std::vector<char> block(1 << 20);
+    std::vector<char> block(std::min<uint64_t>(file.size(), 1 << 20));
     for (uint64_t position = 0; position < file.size(); position += block.size()) {
         const uint64_t size = std::min<uint64_t>(block.size(), file.size() - position);
         file.read(position, block.data(), size);

@@ -31,11 +31,12 @@ std::string read_all_inflated(const InputFile& file, size_t max) {
     std::string bytes;
     // Reserving is cheap, since untouched pages take no memory; growing would copy everything.
     const uint64_t largest = is_gzip ? kDeflateRatio * file.size() : file.size();
-    bytes.reserve(std::min<uint64_t>(largest, max) + kPiece);
-    for (size_t got = kPiece; got == kPiece;) {
+    const size_t piece = std::min<uint64_t>(largest + 1, kPiece);
+    bytes.reserve(std::min<uint64_t>(largest, max) + piece);
+    for (size_t got = piece; got == piece;) {
         const size_t before = bytes.size();
-        bytes.resize(before + kPiece);
-        got = stream.read_some(bytes.data() + before, kPiece);
+        bytes.resize(before + piece);
+        got = stream.read_some(bytes.data() + before, piece);
         bytes.resize(before + got);
         if (bytes.size() > max)
             file.refuse(fmt::format("becomes more than the {} MiB that are possible", max >> 20));

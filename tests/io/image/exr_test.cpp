@@ -192,6 +192,37 @@ TEST_F(ExrTest, WhatAHeaderDeclaresBeyondTheFileIsRefusedBeforeMemoryIsTaken) {
     EXPECT_THAT(error_of([&] { read_exr(path()); }).what(), HasSubstr("attribute s declares"));
 }
 
+/// OpenEXR reads such values by their types, and takes what follows for other attributes: 1.7 GB
+/// for a file of 754 bytes.
+TEST_F(ExrTest, AttributesOfOtherLengthsThanTheirTypesHaveAreRefused) {
+    write_exr(path(), random_image(4, 4));
+    const std::string bytes = bytes_of(path());
+    using namespace std::string_literals;
+    const std::string longer[] = {"compression\0compression\0"s, "dataWindow\0box2i\0"s,
+                                  "screenWindowCenter\0v2f\0"s, "pixelAspectRatio\0float\0"s};
+    for (const std::string& head : longer) {
+        std::string changed = bytes;
+        const size_t offset = bytes.find(head);
+        ASSERT_NE(offset, std::string::npos) << head;
+        const size_t length = offset + head.size();
+        changed.insert(length + 4, 1, '\0');
+        ++changed[length];
+        put_bytes(path(), changed);
+        EXPECT_EQ(error_of([&] { read_exr(path()); }).exit_code(), 4);
+        EXPECT_THAT(error_of([&] { read_exr_header(path()); }).what(),
+                    HasSubstr("bytes, which is no"));
+    }
+    const std::string head = "channels\0chlist\0"s;
+    const size_t length = bytes.find(head) + head.size();
+    for (const int added : {-1, 1, 16, 17}) {  // the list ends before or behind its attribute
+        std::string changed = bytes;
+        changed[length] = char(changed[length] + added);
+        put_bytes(path(), changed);
+        EXPECT_THAT(error_of([&] { read_exr_header(path()); }).what(),
+                    HasSubstr("its attribute channels declares"));
+    }
+}
+
 TEST_F(ExrTest, ADamagedFileEndsInAnErrorOrAnImage) {
     write_exr(path(), random_image());
     const std::string bytes = bytes_of(path());
