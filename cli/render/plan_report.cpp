@@ -72,6 +72,7 @@ Report plan_report(const Plan& plan, const Device& device) {
              {"% of device", three_digits(stage.bytes / plan.device_bytes * 100)}});
     report["largest buffer"] = bytes_text(plan.largest_buffer_bytes);
     report["main memory"] = bytes_text(plan.host_bytes);
+    report["whole process"] = bytes_text(plan.process_bytes);
     return report;
 }
 
@@ -81,6 +82,7 @@ void add_verdict(const Plan& plan, Report& report) {
     report["least MB"] = megabytes(plan.min_bytes);
     report["most MB"] = megabytes(plan.max_bytes);
     report["device MB"] = megabytes(plan.device_bytes);
+    report["process MB"] = megabytes(plan.process_bytes);
     report["bands"] = plan.bands;
     report["warnings"] = Report::array();
     for (const Warning& warning : plan.warnings)

@@ -166,7 +166,8 @@ py::dict plan(const Scene& scene, const OpenDevice& open) {
         py::arg("verdict") = voxelume::name_of(planned.verdict), py::arg("refusal") = refusal,
         py::arg("frame") = planned.frame, py::arg("chosen_frames") = planned.chosen_frames,
         py::arg("min_bytes") = planned.min_bytes, py::arg("max_bytes") = planned.max_bytes,
-        py::arg("device_bytes") = planned.device_bytes, py::arg("host_bytes") = planned.host_bytes);
+        py::arg("device_bytes") = planned.device_bytes, py::arg("host_bytes") = planned.host_bytes,
+        py::arg("process_bytes") = planned.process_bytes);
 }
 
 }  // namespace

@@ -45,8 +45,7 @@ bool fits_surely(const Scene& scene, const ScenePlan& plan, size_t frames,
                  const DeviceInfo& device) {
     const double memory = double(device.memory);
     const double max_bytes = plan.run_bytes(worlds_of(scene, frames), memory);
-    const double host = plan.host_bytes + writing_bytes(scene) + kDriverBytes +
-                        (device.kind == DeviceKind::cpu ? max_bytes : 0);
+    const double host = process_bytes(plan, max_bytes, device) + writing_bytes(scene);
     return max_bytes <= memory && host <= double(main_memory()) &&
            !is_refused({1, scene, plan}, device);
 }

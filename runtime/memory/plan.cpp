@@ -89,6 +89,10 @@ double ScenePlan::peak_bytes() const {
     return std::max({voxelize_bytes, place_bytes, index_bytes, shown_bytes});
 }
 
+double process_bytes(const ScenePlan& plan, double device_bytes, const DeviceInfo& device) {
+    return kDriverBytes + plan.host_bytes + (device.kind == DeviceKind::cpu ? device_bytes : 0.0);
+}
+
 GridPlan plan_model(const Model& model, const Mesh& mesh) {
     const MeshSummary summary = summary_of(mesh);
     const GridFrame frame = model_frame(model, &summary);

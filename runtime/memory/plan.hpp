@@ -19,11 +19,16 @@
 namespace voxelume {
 
 class SolidExtents;
+struct ScenePlan;
 
 /// The main memory that the program, an OpenCL driver and its compiler take in addition to
 /// everything that is counted: PoCL 3.1 with LLVM 15, compiling the kernels of a scene of all
 /// features, takes 0.28 GB.
 inline constexpr double kDriverBytes = 3e8;
+
+/// The bytes of main memory of the whole process, whose device takes `device_bytes`: a CPU's are
+/// main memory, too.
+double process_bytes(const ScenePlan& plan, double device_bytes, const DeviceInfo& device);
 
 struct ScenePlan {
     std::vector<GridPlan> grids;

@@ -3,6 +3,7 @@
 
 #include <CL/opencl.hpp>
 
+#include <atomic>
 #include <limits>
 #include <mutex>
 #include <set>
@@ -59,6 +60,7 @@ struct Device::Opened {
     CompileListener compile_listener;
     std::mutex telling;  ///< held while the listener is called
     bool timing = false;
+    std::atomic<uint32_t> batch_rays = kCpuBatchRays;
     bool has_run = false;      ///< has run to its end
     bool is_counting = false;  ///< counts only, without a device
 
@@ -109,6 +111,7 @@ struct Device::Queue {
 Device Device::open(const cl::Device& device, DeviceInfo info, const Device* sibling) {
     auto opened = std::make_shared<Opened>();
     opened->info = std::move(info);
+    opened->batch_rays = opened->info.batch_rays;
     try {
         opened->device = part_of(device);
         const bool shares = sibling && sibling->handle()() == opened->device();
@@ -123,6 +126,7 @@ Device Device::open(const cl::Device& device, DeviceInfo info, const Device* sib
 Device Device::counting(DeviceInfo info) {
     auto opened = std::make_shared<Opened>();
     opened->info = std::move(info);
+    opened->batch_rays = opened->info.batch_rays;
     opened->info.memory = opened->info.max_allocation = std::numeric_limits<uint64_t>::max();
     opened->is_counting = true;
     return Device(std::make_shared<Queue>(std::move(opened)));
@@ -135,6 +139,20 @@ Device Device::with_own_queue() const {
 const DeviceInfo& Device::info() const {
     return queue_->opened->info;
 }
+
+uint32_t Device::batch_rays() const {
+    return queue_->opened->batch_rays;
+}
+
+bool Device::use_smaller_batches() const {
+    const auto locked = lock();
+    constexpr uint32_t kMinRays = 1u << 12;  // whose buffers take a few megabytes at most
+    const uint32_t rays = queue_->opened->batch_rays;
+    if (rays < 2 * kMinRays) return false;
+    queue_->opened->batch_rays = rays / 2;
+    return true;
+}
+
 bool Device::is_counting() const {
     return queue_->opened->is_counting;
 }

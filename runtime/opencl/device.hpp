@@ -45,7 +45,7 @@ struct DeviceInfo {
     int work_group = 0;  ///< number of work-items in every group; 0: chosen by kernel and kind of
                          ///< device
     uint32_t batch_rays = kCpuBatchRays;  ///< the maximum number of rays that pass through the
-                                          ///< stages together
+                                          ///< stages together where memory suffices
     std::string build_options;            ///< added to the options of every program
     SelfTest self_test = SelfTest::unknown;
     std::string unusable;  ///< the reason why it can't render; empty if it can
@@ -115,6 +115,11 @@ class Device {
     Device with_own_queue() const;
 
     const DeviceInfo& info() const;
+    /// The maximum number of rays that pass through the stages together from now on.
+    uint32_t batch_rays() const;
+    /// Halves batches for all that use this device, since it lacks memory. Returns false when they
+    /// are small already, so that their buffers no longer matter.
+    bool use_smaller_batches() const;
     int lanes() const { return info().lanes; }
     bool is_cpu() const { return info().kind == DeviceKind::cpu; }
     bool is_counting() const;

@@ -5,6 +5,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/render/light_passes.hpp"
+#include "runtime/render/smaller_batches.hpp"
 #include "runtime/scene/rendered_channels.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
@@ -58,9 +59,15 @@ std::shared_ptr<const Image> Renderer::image(const Scene& scene, const BuiltWorl
 
 Image Renderer::new_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                           const FrameProgress& progress) {
-    TileShare all(tile_count(scene.render.size.x, scene.render.size.y), progress);
+    const RenderReport before = report;
     std::vector<TileRange> taken;
-    return part_of_image(scene, world, report, {all, taken});
+    return with_batches_that_fit(
+        device_, [&] { return !taken.empty(); },
+        [&] {
+            report = before;
+            TileShare all(tile_count(scene.render.size.x, scene.render.size.y), progress);
+            return part_of_image(scene, world, report, {all, taken});
+        });
 }
 
 Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,

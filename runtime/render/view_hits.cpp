@@ -54,7 +54,8 @@ Renderer::ViewHits Renderer::begin_view(const Scene& scene, const BuiltWorld& wo
     hits.in_batch = batch_tiles(device_, features, samples, share.maximum());
     hits.are_lent = lender_ && !moments_ && lender_->lends_hits(hits.view, hits.in_batch);
     if (hits.are_lent) hits.in_batch = lender_->tiles_in_batch_;
-    hits.are_known = hits.are_lent || (!moments_ && view_ == hits.view && !hits_.empty());
+    const bool has_hits = !hits_.empty() && tiles_in_batch_ == hits.in_batch;
+    hits.are_known = hits.are_lent || (!moments_ && view_ == hits.view && has_hits);
     view_.reset();  // an error may leave the hits incomplete
     if (!hits.are_known) hits_.clear();
     tiles_in_batch_ = hits.in_batch;

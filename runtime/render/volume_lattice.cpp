@@ -92,6 +92,7 @@ class LatticeRender {
     }
 
     void tell_progress(uint32_t done) const {
+        work_.has_begun = true;
         if (!work_.progress) return;
         work_.device.finish();
         work_.progress(done, 3);

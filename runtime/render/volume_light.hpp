@@ -22,6 +22,7 @@ struct VolumeWork {
     Camera camera;
     RenderReport& report;
     const FrameProgress& progress;
+    bool has_begun = false;  ///< a part of it is done
 };
 
 /// The numbers of the rays that illumination has sent.

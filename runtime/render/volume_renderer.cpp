@@ -12,6 +12,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/render/illumination.hpp"
+#include "runtime/render/smaller_batches.hpp"
 #include "runtime/render/volume_lattice.hpp"
 #include "runtime/stages/display/display_rays.hpp"
 #include "runtime/stages/trace/beam.hpp"
@@ -77,6 +78,7 @@ void render_rays(VolumeWork& work, Volume& volume) {
         else if (!work.features.transmission)
             keep_layer(batch, rays, true, {batch.radiance, {}, batch.stride});
         work.report.sight_rays += rays;
+        work.has_begun = true;
         share_compiled_kernels(work.device);
         if (work.progress) {
             work.device.finish();
@@ -89,6 +91,23 @@ void render_rays(VolumeWork& work, Volume& volume) {
         work.report.clear_beams = beams->cleared();
     }
     display.read(volume);
+}
+
+/// The volumetric image without its attributes.
+Volume volume_of(VolumeWork& work) {
+    const RenderReport before = work.report;
+    return with_batches_that_fit(
+        work.device, [&] { return work.has_begun; },
+        [&] {
+            work.report = before;
+            Volume volume;
+            volume.frame = work.frame;
+            if (work.frame.layout == VolumeLayout::rays)
+                render_rays(work, volume);
+            else
+                render_lattice(work, volume);
+            return volume;
+        });
 }
 
 uint32_t count_not_finite(const Volume& volume) {
@@ -112,12 +131,7 @@ Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld&
                        frame,  display_sight(scene, frame, world.frame),
                        report, progress};
     leave_out_solid_kinds(device, world, work.features);
-    Volume volume;
-    volume.frame = frame;
-    if (frame.layout == VolumeLayout::rays)
-        render_rays(work, volume);
-    else
-        render_lattice(work, volume);
+    Volume volume = volume_of(work);
     device.finish();  // so that kernels' times are known
     share_compiled_kernels(device);
     report.not_finite = count_not_finite(volume);

@@ -69,8 +69,11 @@ struct Plan {
     double max_bytes = 0;             ///< bytes of the device, at most, for what the options want
     double device_bytes = 0;          ///< bytes of the device that can be used
     double largest_buffer_bytes = 0;  ///< bytes of the largest buffer of any stage
-    double host_bytes = 0;            ///< bytes of main memory
-    std::vector<GridPlan> grids{};    ///< the grid of the world is the last
+    double host_bytes = 0;            ///< bytes of main memory, besides the device's and the driver
+    /// Bytes of main memory that the whole process takes, at most: the program, the OpenCL driver
+    /// and its compiler, `host_bytes` and, on CPUs, what the device takes.
+    double process_bytes = 0;
+    std::vector<GridPlan> grids{};  ///< the grid of the world is the last
     /// The memory of each stage. The stages "image" and "volume", of flat and of volumetric images,
     /// only run if such images are asked for.
     std::vector<StagePlan> stages{};

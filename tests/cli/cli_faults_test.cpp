@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every OpenCL call of some renders fails once, with statuses that it may return: the program ends
 // with a documented code, one sentence and no file but those of earlier frames, or does without the
-// call and makes the same file.
+// call and makes the same file. It releases all objects of OpenCL in either case.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -56,13 +56,23 @@ class CliFaultsTest : public SceneProgramTest {
         std::filesystem::create_directory(folder / "out");
     }
 
+    /// The program has released all objects of OpenCL that it made.
+    void expect_nothing_left() const {
+        std::ifstream file(folder / "left");
+        EXPECT_TRUE(file.is_open());
+        std::string kind;
+        for (long count = 0; file >> kind >> count;) EXPECT_EQ(count, 0) << kind;
+        std::filesystem::remove(folder / "left");
+    }
+
     /// The `number`-th call of the function fails.
     void expect_handled(const std::string& function, long number, int status,
                         const std::map<std::string, std::string>& expected) const {
         const std::string fault = fmt::format("{}:{}:{}", function, number, status);
         SCOPED_TRACE(fault);
         remove_files();
-        const ProgramResult result = render("VXL_FAULT=" + fault);
+        const ProgramResult result = render("VXL_FAULT_LEFT=left VXL_FAULT=" + fault);
+        expect_nothing_left();
         if (result.exit_code == 0) {
             EXPECT_TRUE(files() == expected);
             return;
@@ -110,7 +120,6 @@ class CliFaultsTest : public SceneProgramTest {
         fmt::print("{} faults tried\n", tried);
     }
 
-  private:
     std::string command_;
 };
 
@@ -182,6 +191,39 @@ TEST_F(CliFaultsTest, AFallbackTakesOverWithTheSameBits) {
     const ProgramResult wrong = run("render none.json -o out/b.exr --fallback cpu");
     EXPECT_EQ(wrong.exit_code, 4);
     EXPECT_THAT(wrong.err, testing::Not(testing::HasSubstr("takes over")));
+}
+
+/// Batches of 131,072 rays have buffers of 3 MB; the world's are smaller than 0.6 MB.
+TEST_F(CliFaultsTest, MemoryThatIsShortIsEnoughForSmallerBatches) {
+    for (const char* output : {"-o out/a.exr", "--volume out/v.nrrd"}) {
+        command_ = fmt::format("render scene.json --no-cache {}", output);
+        remove_files();
+        ASSERT_EQ(render("").exit_code, 0);
+        const std::map<std::string, std::string> expected = files();
+        remove_files();
+        const ProgramResult smaller = render("VXL_FAULT=clCreateBuffer:1000000:large");
+        EXPECT_EQ(smaller.exit_code, 0) << smaller.err;
+        EXPECT_TRUE(files() == expected);
+        remove_files();
+        const ProgramResult none =
+            render("VXL_FAULT_LEFT=left VXL_FAULT=clCreateBuffer:1000:large");
+        EXPECT_EQ(none.exit_code, 8);
+        EXPECT_THAT(none.err, testing::HasSubstr("ran out of memory while allocating"));
+        EXPECT_TRUE(files().empty());
+        expect_nothing_left();
+    }
+}
+
+TEST_F(CliFaultsTest, CallsThatAreLateChangeNothing) {
+    command_ = "render scene.json --no-cache -o out/a.exr";
+    remove_files();
+    ASSERT_EQ(render("").exit_code, 0);
+    const std::map<std::string, std::string> expected = files();
+    for (const char* function : {"clEnqueueReadBuffer", "clEnqueueNDRangeKernel", "clFinish"}) {
+        remove_files();
+        EXPECT_EQ(render(fmt::format("VXL_FAULT={}:2:delay", function)).exit_code, 0) << function;
+        EXPECT_TRUE(files() == expected) << function;
+    }
 }
 
 TEST_F(CliFaultsTest, CallsThatNeverReturnEndTheRunInTime) {

@@ -1,15 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 // The memory that a scene takes is reported, and refused where it is too much.
 #include <gmock/gmock.h>
+#include <spawn.h>
+#include <sys/resource.h>
 
+#include "runtime/base/sanitizers.hpp"
 #include "tests/cli/scene_program.hpp"
+#include "tests/support/exhaustive.hpp"
 
 namespace voxelume {
 namespace {
 
 using testing::HasSubstr;
 
-class CliMemoryTest : public SceneProgramTest {};
+extern "C" char** environ;
+
+class CliMemoryTest : public SceneProgramTest {
+  protected:
+    /// The largest part of main memory that the program had at one time, in bytes.
+    static double peak_of(const std::string& arguments) {
+        const std::string line = fmt::format("exec '{}' {}", VXL_BINARY, arguments);
+        const char* const words[] = {"sh", "-c", line.c_str(), nullptr};
+        pid_t child = 0;
+        EXPECT_EQ(posix_spawnp(&child, "sh", nullptr, nullptr, const_cast<char**>(words), environ),
+                  0);
+        int status = -1;
+        rusage used{};
+        EXPECT_EQ(wait4(child, &status, 0, &used), child);
+        EXPECT_EQ(status, 0) << line;
+        return 1024.0 * double(used.ru_maxrss);
+    }
+
+    /// Renders the scene as its options say, and holds the process against what `check` promises.
+    void expect_promise_holds(const std::string& scene, const std::string& options) const {
+        SCOPED_TRACE(scene + options);
+        const std::string shown =
+            fmt::format("'{}' --assets /usr/share/glmark2/models{}", scene, options);
+        const ProgramResult planned = run("check -q --json " + shown);
+        ASSERT_EQ(planned.exit_code, 0) << planned.err;
+        const double promised = 1e6 * Json::parse(planned.out)["process MB"].get<double>();
+        const double peak =
+            peak_of(fmt::format("render -q --no-cache --frames 1 --overwrite always -o '{}' {}",
+                                (folder / "a.exr").string(), shown));
+        EXPECT_LE(peak, promised);
+        fmt::print("{}{}: {:.0f} of {:.0f} MB\n", scene, options, peak / 1e6, promised / 1e6);
+    }
+};
 
 TEST_F(CliMemoryTest, CheckTellsProgramsWhetherTheSceneFits) {
     write_scene([](Json& scene) {
@@ -34,6 +70,25 @@ TEST_F(CliMemoryTest, CheckTellsProgramsWhetherTheSceneFits) {
     EXPECT_GT(may["most MB"], 1.05);
     EXPECT_EQ(not_at_all["verdict"], "doesn't fit");
     EXPECT_GT(not_at_all["least MB"], 1.05);
+}
+
+/// Where no kernels are kept, the process compiles them, too.
+TEST_F(CliMemoryTest, ProcessesTakeNoMoreThanCheckPromises) {
+    if (kHasSanitizer) GTEST_SKIP() << "a sanitizer takes memory of its own";
+    const std::filesystem::path scenes = VXL_SOURCE_DIR "/scenes";
+    expect_promise_holds(scenes / "cubes.json", "");
+    expect_promise_holds(scenes / "whitted.json", " --size 1600x1200");
+    if (!is_exhaustive()) return;
+    int tried = 2;
+    for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
+        const std::filesystem::path scene = entry.path();
+        if (scene.extension() != ".json" || scene.stem() == "voxelume.schema") continue;
+        for (const char* options : {" --samples 2", " --size 1600x1200 --samples 1"}) {
+            expect_promise_holds(scene, options);
+            ++tried;
+        }
+    }
+    EXPECT_GE(tried, 40);
 }
 
 TEST_F(CliMemoryTest, AMemoryLimitRefusesWhatNeedsMoreBeforeItIsTaken) {

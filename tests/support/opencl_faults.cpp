@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A library that is preloaded into the program. It stands between the program and OpenCL, counts
-// calls, and makes one of them fail or never return.
+// calls, and makes one of them fail, wait or never return.
 //
 // VXL_FAULT=NAME:N:CODE makes the N-th call of the function NAME (from 1 on) do nothing and return
-// the status CODE; with `hang` as the code, it never returns. VXL_FAULT=clEnqueueReadBuffer:N:wrong
-// makes the N-th read return a wrong first bit. VXL_FAULT_COUNTS=FILE writes the number of calls of
-// each function to FILE when a program that made calls ends, and VXL_FAULT_SITES=FILE the numbers
-// of the first calls from each site: a site is a stack of calls.
+// the status CODE; with `hang` as the code, it never returns, and with `delay` it waits for half a
+// second first. VXL_FAULT=clEnqueueReadBuffer:N:wrong makes the N-th read return a wrong first bit.
+// VXL_FAULT=clCreateBuffer:BYTES:large makes every buffer of more than BYTES fail for want of
+// memory. VXL_FAULT_COUNTS=FILE writes the number of calls of each function to FILE when a program
+// that made calls ends, VXL_FAULT_SITES=FILE the numbers of the first calls from each site (a site
+// is a stack of calls), and VXL_FAULT_LEFT=FILE the numbers of objects that the program made and
+// didn't release.
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_USE_DEPRECATED_OPENCL_1_1_APIS
 #include <CL/cl.h>
@@ -33,7 +36,7 @@ struct Fault {
     std::string name;
     long number = 0;
     cl_int code = 0;
-    bool hangs = false;
+    bool hangs = false, delays = false, is_large = false;
 };
 
 /// The fault that VXL_FAULT asks for. An unknown form ends the program.
@@ -45,6 +48,8 @@ Fault requested_fault() {
     if (std::sscanf(text, "%63[^:]:%ld:%15s", name, &fault.number, code) != 3) std::abort();
     fault.name = name;
     fault.hangs = std::strcmp(code, "hang") == 0;
+    fault.delays = std::strcmp(code, "delay") == 0;
+    fault.is_large = std::strcmp(code, "large") == 0;
     fault.code = std::strcmp(code, "wrong") == 0 ? kWrong : std::atoi(code);
     return fault;
 }
@@ -55,7 +60,18 @@ class Calls {
         // There are no counts in `timeout`, which ends after the program that it starts.
         if (counts_.empty()) return;
         write(std::getenv("VXL_FAULT_COUNTS"), counts_);
+        write(std::getenv("VXL_FAULT_LEFT"), left_);
         write(sites_file_, sites_);
+    }
+
+    /// Adds to the number of references to objects of a kind.
+    void add_left(const char* kind, long references) {
+        const std::lock_guard lock(mutex_);
+        left_[kind] += references;
+    }
+
+    bool is_too_large(size_t bytes) const {
+        return fault_.is_large && bytes > size_t(fault_.number);
     }
 
     /// Counts a call. Returns the status with which it should fail, if any.
@@ -63,12 +79,14 @@ class Calls {
         bool is_it = false;
         {
             const std::lock_guard lock(mutex_);
-            is_it = ++counts_[name] == fault_.number && fault_.name == name;
+            is_it = ++counts_[name] == fault_.number && fault_.name == name && !fault_.is_large;
             if (sites_file_ && is_new_place(name)) sites_.emplace_back(name, counts_[name]);
         }
         if (!is_it) return std::nullopt;
         while (fault_.hangs) pause();
-        return fault_.code;
+        if (!fault_.delays) return fault_.code;
+        usleep(500'000);
+        return std::nullopt;
     }
 
   private:
@@ -88,7 +106,7 @@ class Calls {
     }
 
     std::mutex mutex_;
-    std::map<std::string, long> counts_;
+    std::map<std::string, long> counts_, left_;
     std::vector<std::pair<std::string, long>> sites_;
     std::map<std::string, std::set<std::vector<void*>>> places_;
     const char* const sites_file_ = std::getenv("VXL_FAULT_SITES");
@@ -117,10 +135,29 @@ Function* next(const char* name) {
     extern "C" type name parameters {                                    \
         static decltype(&name) const real = next<decltype(name)>(#name); \
         const std::optional<cl_int> status = calls.count(#name);         \
-        if (!status) return real arguments;                              \
-        if (error) *error = *status;                                     \
-        return nullptr;                                                  \
+        type const object = status ? nullptr : real arguments;           \
+        if (status && error) *error = *status;                           \
+        calls.add_left(#type, object != nullptr);                        \
+        return object;                                                   \
     }
+
+// Define the functions that change the number of references to objects of a type.
+#define VXL_REFERENCES(type, what)                                                    \
+    extern "C" cl_int clRetain##what(type object) {                                   \
+        static auto* const real = next<decltype(clRetain##what)>("clRetain" #what);   \
+        calls.add_left(#type, 1);                                                     \
+        return real(object);                                                          \
+    }                                                                                 \
+    extern "C" cl_int clRelease##what(type object) {                                  \
+        static auto* const real = next<decltype(clRelease##what)>("clRelease" #what); \
+        calls.add_left(#type, -1);                                                    \
+        return real(object);                                                          \
+    }
+VXL_REFERENCES(cl_context, Context)
+VXL_REFERENCES(cl_command_queue, CommandQueue)
+VXL_REFERENCES(cl_mem, MemObject)
+VXL_REFERENCES(cl_program, Program)
+VXL_REFERENCES(cl_kernel, Kernel)
 
 #define VXL_WAITS cl_uint waits, const cl_event *events, cl_event *event
 #define VXL_TRANSFER \
@@ -151,9 +188,16 @@ VXL_OBJECT_CALL(cl_command_queue, clCreateCommandQueue,
                 (cl_context context, cl_device_id id, cl_command_queue_properties properties,
                  cl_int* error),
                 (context, id, properties, error))
-VXL_OBJECT_CALL(cl_mem, clCreateBuffer,
-                (cl_context context, cl_mem_flags flags, size_t size, void* memory, cl_int* error),
-                (context, flags, size, memory, error))
+extern "C" cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t size, void* memory,
+                                 cl_int* error) {
+    static auto* const real = next<decltype(clCreateBuffer)>("clCreateBuffer");
+    std::optional<cl_int> status = calls.count("clCreateBuffer");
+    if (calls.is_too_large(size)) status = CL_MEM_OBJECT_ALLOCATION_FAILURE;
+    const cl_mem object = status ? nullptr : real(context, flags, size, memory, error);
+    if (status && error) *error = *status;
+    calls.add_left("cl_mem", object != nullptr);
+    return object;
+}
 VXL_OBJECT_CALL(cl_program, clCreateProgramWithSource,
                 (cl_context context, cl_uint count, const char** texts, const size_t* sizes,
                  cl_int* error),
@@ -209,10 +253,16 @@ VXL_STATUS_CALL(clEnqueueFillBuffer,
                 (cl_command_queue queue, cl_mem buffer, const void* pattern, size_t pattern_size,
                  size_t offset, size_t size, VXL_WAITS),
                 (queue, buffer, pattern, pattern_size, offset, size, waits, events, event))
-VXL_OBJECT_CALL(void*, clEnqueueMapBuffer,
-                (cl_command_queue queue, cl_mem buffer, cl_bool blocks, cl_map_flags flags,
-                 size_t offset, size_t size, VXL_WAITS, cl_int* error),
-                (queue, buffer, blocks, flags, offset, size, waits, events, event, error))
+extern "C" void* clEnqueueMapBuffer(cl_command_queue queue, cl_mem buffer, cl_bool blocks,
+                                    cl_map_flags flags, size_t offset, size_t size, VXL_WAITS,
+                                    cl_int* error) {
+    static auto* const real = next<decltype(clEnqueueMapBuffer)>("clEnqueueMapBuffer");
+    const std::optional<cl_int> status = calls.count("clEnqueueMapBuffer");
+    if (!status)
+        return real(queue, buffer, blocks, flags, offset, size, waits, events, event, error);
+    if (error) *error = *status;
+    return nullptr;
+}
 VXL_STATUS_CALL(clEnqueueUnmapMemObject,
                 (cl_command_queue queue, cl_mem buffer, void* memory, VXL_WAITS),
                 (queue, buffer, memory, waits, events, event))

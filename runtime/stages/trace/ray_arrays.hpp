@@ -26,7 +26,7 @@ struct PathDepth {
 
 /// The maximum number of rays that pass through the stages of a device together.
 inline uint32_t batch_rays(const Device& device, const Features& features) {
-    return features.paths ? device.info().batch_rays / 2 : device.info().batch_rays;
+    return features.paths ? device.batch_rays() / 2 : device.batch_rays();
 }
 
 /// The number of tiles of 4 x 4 pixels whose rays make a batch, with `samples` samples a pixel; 1
