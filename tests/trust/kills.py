@@ -23,6 +23,9 @@ def strangers(cache):
             if path.name.endswith(".tmp") or path.name.startswith(("pocl.", "pocl-"))]
 
 
+KILLS_A_CACHE = 16  # one of so many is of a run with a cold cache, which takes long; the first, too
+
+
 class Kills:
     def __init__(self, program, folder, seed):
         self.program, self.folder = program, folder
@@ -109,7 +112,7 @@ def main():
         kills = Kills(options.program.resolve(), pathlib.Path(folder), options.seed)
         kills.prepare()
         while kills.kills < options.kills:
-            if kills.random.random() < 0.05:
+            if kills.caches * KILLS_A_CACHE <= kills.kills:
                 kills.kill_cache()
             else:
                 kills.kill_output(*kills.random.choice(kills.commands))

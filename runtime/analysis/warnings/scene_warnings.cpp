@@ -86,14 +86,13 @@ void add_volume_warning(const Scene& scene, std::vector<Warning>& warnings) {
         add_once(local_volume_warning(scene), warnings);
 }
 
-/// Adds the warning that a folder of the cache keeps nothing, and what each run does again.
+/// Adds the warning that a folder of the cache keeps nothing, and what each run does because of it.
 void add_cache_warning(const std::filesystem::path& folder, const std::string& refusal,
-                       const char* again, std::vector<Warning>& warnings) {
+                       const char* consequence, std::vector<Warning>& warnings) {
     if (refusal.empty()) return;
     add_once({WarningKind::cache_not_writable, SourcePlace(folder.string()),
-              fmt::format("nothing can be kept in this folder ({}), so each run {} again: name "
-                          "another one with VOXELUME_CACHE_DIR, or use --no-cache",
-                          refusal, again)},
+              fmt::format("nothing can be kept in this folder ({}), so each run {}", refusal,
+                          consequence)},
              warnings);
 }
 
@@ -105,10 +104,15 @@ void add_cache_warnings(const ModelCache& cache, std::vector<Warning>& warnings)
     const bool has_one_cause =
         models == refusal && cache.folder().parent_path() == programs.folder().parent_path();
     add_cache_warning(cache.folder(), models,
-                      has_one_cause ? "voxelizes and compiles everything" : "voxelizes everything",
+                      has_one_cause ? "voxelizes and compiles everything again: name another one "
+                                      "with VOXELUME_CACHE_DIR, or use --no-cache"
+                                    : "voxelizes everything again: name another one, or use "
+                                      "--no-cache",
                       warnings);
-    if (!has_one_cause)
-        add_cache_warning(programs.folder(), refusal, "compiles all kernels", warnings);
+    if (has_one_cause) return;
+    add_cache_warning(programs.folder(), refusal,
+                      "compiles all kernels again: name another one with VOXELUME_CACHE_DIR",
+                      warnings);
 }
 
 /// True if an object shows the same file, or a solid, as in another frame.
