@@ -19,6 +19,10 @@
 
 namespace voxelume::v1 {
 
+/// A new temporary folder of this user alone. Its last owner removes it with all that is in it, or
+/// else the next process that makes one. Throws Error::output.
+std::shared_ptr<const std::filesystem::path> make_temporary_folder();
+
 /// A test of what devices do. A case costs about as much as `rays_per_case` rays.
 struct StressTest {
     std::string name;

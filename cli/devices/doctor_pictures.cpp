@@ -4,17 +4,12 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <numeric>
 #include <span>
-#include <system_error>
 
 namespace voxelume::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 class Hasher {
   public:
@@ -54,20 +49,8 @@ Channels all_channels() {
 
 }  // namespace
 
-KnownFiles::KnownFiles() {
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "voxelume-doctor-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-        throw Error(ErrorKind::output, fmt::format("{}: can't be made: {}", name,
-                                                   std::generic_category().message(errno)));
-    folder_ = name;
-    for (const KnownFile& file : known_files())
-        std::ofstream(folder_ / file.name, std::ios::binary) << file.text;
-}
-
-KnownFiles::~KnownFiles() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
+KnownFiles::KnownFiles() : folder_(make_temporary_folder()) {
+    for (const KnownFile& file : known_files()) write_file(folder() / file.name, file.text);
 }
 
 std::string hash_of_render(const KnownPicture& picture, const KnownFiles& files,

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "runtime/voxelume.hpp"
+#include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {
 
@@ -31,19 +32,16 @@ struct KnownFile {
 
 std::vector<KnownFile> known_files();
 
-/// A folder with the files of the known pictures. It is removed with all its contents.
+/// A folder with the files of the known pictures. Its last copy removes it.
 class KnownFiles {
   public:
     /// Writes the files into a new temporary folder. Throws Error::output if that fails.
     KnownFiles();
-    ~KnownFiles();
-    KnownFiles(const KnownFiles&) = delete;
-    KnownFiles& operator=(const KnownFiles&) = delete;
 
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return *folder_; }
 
   private:
-    std::filesystem::path folder_;
+    std::shared_ptr<const std::filesystem::path> folder_;
 };
 
 /// Renders all frames of a picture, without the cache of models and worlds, and returns their hash.

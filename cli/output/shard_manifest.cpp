@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "cli/output/channels.hpp"
 #include "cli/output/view_transforms.hpp"
+#include "runtime/base/json_text.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -16,6 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 4;  // changes when the keys or their meanings change
+constexpr uint64_t kMaxBytes = uint64_t{64} << 20;  // some hundred bytes for each frame
 constexpr const char* kFormatKey = "voxelume_shard";
 
 Json json_of(const ShardFile& file) {
@@ -123,14 +123,8 @@ void write_manifest(const std::filesystem::path& file, const ShardManifest& mani
 }
 
 ShardManifest read_manifest(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-        refuse(file,
-               std::filesystem::exists(file, error) ? "isn't a file" : "there is no such file");
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) refuse(file, "can't be read");
-    const Json json = Json::parse(text, nullptr, false);
+    const std::string text = read_file(file, kMaxBytes);
+    const auto json = parse_json_text<Json>(text);
     constexpr const char* kDamaged = "is damaged: render this part again";
     if (!json.is_object() || !json.contains(kFormatKey))
         refuse(file, is_meant(file, text)

@@ -12,6 +12,7 @@
 #include "cli/shared/report.hpp"
 #include "cli/shared/scene_options.hpp"
 #include "cli/shared/warnings.hpp"
+#include "runtime/base/json_text.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -107,7 +108,7 @@ Report fitted_report(const Scene& scene) {
     std::string text = scene.fitted();
     if (!text.empty()) text.pop_back();
     std::ranges::replace(text, '\n', ',');
-    return Report::parse("{" + text + "}");
+    return parse_json_text<Report>("{" + text + "}");
 }
 
 /// The maximum bytes on the device if the stage `shown` replaced the output stages that are asked

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <string_view>
 
 #include "cli/shared/checks.hpp"
@@ -52,10 +52,18 @@ void check(const Setting& setting, const std::string& value, const std::string& 
         fail_usage("{}: {}", origin, fault);
 }
 
+std::string text_of(const fs::path& file) {
+    constexpr uint64_t kMaxBytes = uint64_t{1} << 20;
+    try {
+        return voxelume::read_file(file, kMaxBytes);
+    } catch (const Error& error) {
+        fail_usage("{}", error.what());
+    }
+}
+
 /// Reads lines "name = value"; # begins a comment line.
 std::map<std::string, FileValue> read_file(const fs::path& file) {
-    std::ifstream stream(file);
-    if (!stream) fail_usage("{}: can't be read", file.string());
+    std::istringstream stream(text_of(file));
     std::map<std::string, FileValue> values;
     std::vector<std::string_view> names;
     for (const Setting& setting : settings()) names.emplace_back(setting.name);
@@ -140,7 +148,8 @@ void load_settings() {
     if (!file.empty() && fs::is_regular_file(file, error))
         take(file, read_file(file));
     else if (!file.empty() && environment("VOXELUME_CONFIG") != nullptr)
-        fail_usage("VOXELUME_CONFIG is {}: there is no such file", quote(file.string()));
+        fail_usage("VOXELUME_CONFIG is {}: {}", quote(file.string()),
+                   fs::exists(file, error) ? "it isn't a plain file" : "there is no such file");
     for (const Setting& setting : settings())
         if (const char* value = environment(setting.variable))
             check(setting, value, fmt::format("{}={}", setting.variable, value));

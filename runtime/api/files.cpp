@@ -12,7 +12,7 @@
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/assets/voxel_paint.hpp"
 #include "runtime/base/files/atomic_file.hpp"
-#include "runtime/base/files/file_hash.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/frame_list.hpp"
 #include "runtime/base/frame_path.hpp"
 #include "runtime/base/text.hpp"
@@ -276,6 +276,10 @@ void check_output_file(const fs::path& file) {
     });
 }
 
+std::string read_file(const fs::path& file, uint64_t max_bytes) {
+    return api::guarded([&] { return InputFile(file).read_all(max_bytes); });
+}
+
 void write_file(const fs::path& file, std::string_view text) {
     api::guarded([&] {
         AtomicFile output(file);
@@ -286,10 +290,6 @@ void write_file(const fs::path& file, std::string_view text) {
 
 std::string quote(std::string_view text) {
     return voxelume::quote(text);
-}
-
-std::string hash_of_file(const std::filesystem::path& file) {
-    return api::guarded([&] { return voxelume::hash_of_file(file); });
 }
 
 std::string suggest(std::string_view text, std::span<const std::string_view> names) {

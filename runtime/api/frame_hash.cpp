@@ -22,6 +22,7 @@
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene/scene_motion.hpp"
 #include "runtime/scene/shutter.hpp"
+#include "runtime/voxelume/files.hpp"
 #include "runtime/voxelume/render.hpp"
 
 namespace voxelume::api {
@@ -192,6 +193,10 @@ FrameFileState image_file_state(const std::filesystem::path& file, const std::st
         const std::string own = api::hash_for_image(hash, api::format_of_image(file), options);
         return static_cast<FrameFileState>(check_stamp(file, own));
     });
+}
+
+std::string hash_of_file(const std::filesystem::path& file) {
+    return api::guarded([&] { return voxelume::hash_of_file(file); });
 }
 
 FrameFileState volume_file_state(const std::filesystem::path& file, const std::string& hash) {

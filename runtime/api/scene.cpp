@@ -2,9 +2,9 @@
 // Scenes for callers.
 #include "runtime/voxelume/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "runtime/api/border/convert.hpp"
 #include "runtime/api/border/guarded.hpp"
@@ -13,6 +13,7 @@
 #include "runtime/api/read_handle.hpp"
 #include "runtime/api/tree/tree.hpp"
 #include "runtime/api/voxel_array.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/import/scene_of_file.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -28,11 +29,15 @@ void refuse_other_files(const std::filesystem::path& file) {
     std::string ending = ending_of(file);
     if (ending == ".gz") ending = ending_of(file.stem()) + ending;  // such as .nii.gz
     if (ending.empty() || ending == ".json" || !std::filesystem::is_regular_file(file)) return;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) return;  // reading reports the reason
-    char first = 0;
-    stream >> first;
-    if (first == '{' || first == '\xEF') return;
+    try {
+        const InputFile input(file);
+        std::string start(std::min<uint64_t>(input.size(), 4096), '\0');
+        input.read(0, start.data(), start.size());
+        const size_t first = start.find_first_not_of(" \t\r\n");
+        if (first != std::string::npos && (start[first] == '{' || start[first] == '\xEF')) return;
+    } catch (const Error&) {
+        return;  // reading reports the reason
+    }
     throw Error(ErrorKind::input,
                 "{}: files that end in {} aren't read: scenes end in .json, and models in {}",
                 SourcePlace(file.string()), ending, fmt::join(model_file_endings(), " "));

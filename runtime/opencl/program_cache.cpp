@@ -31,9 +31,7 @@ constexpr uint64_t kMaxCacheBytes = 256u << 20;
 constexpr const char* kCacheVersion = "voxelume programs 4";
 
 DiskCache program_store() {
-    const std::filesystem::path folder = cache_folder();
-    return DiskCache(folder.empty() ? folder : folder / "programs", kMaxCacheBytes,
-                     cache_bases("programs"));
+    return DiskCache(programs_folder(), kMaxCacheBytes, cache_bases("programs"));
 }
 
 /// The declarations of the functions of OpenCL C that kernels use, for PoCL.

@@ -3,12 +3,12 @@
 #include "runtime/scene_file/read_scene.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/scene/fitted.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene/scene_motion.hpp"
@@ -29,29 +29,15 @@ std::string read_text(const std::filesystem::path& file) {
                     SourcePlace(file.string()),
                     std::filesystem::is_directory(status) ? "folder" : "pipe or device");
     }
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) {
-        throw Error(
-            ErrorKind::input, "{}: the scene can't be opened: {}", SourcePlace(file.string()),
-            std::filesystem::exists(file, error) ? "no permission to read it" : "no such file");
-    }
-    // Some system files have no size, and wait for more data.
-    const uintmax_t size = std::filesystem::file_size(file, error);
-    std::string text;
-    std::vector<char> block(size_t{1} << 16);
-    while (!error && text.size() < size) {
-        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-        if (stream.gcount() <= 0) break;
-        text.append(block.data(), static_cast<size_t>(stream.gcount()));
-        if (text.size() > kMaxSceneBytes) {
-            throw Error(ErrorKind::limit,
-                        "{}: a scene file has at most 64 MiB; keep meshes in files of their own",
-                        SourcePlace(file.string()));
-        }
-    }
-    if (stream.bad())
-        throw Error(ErrorKind::input, "{}: reading the scene failed", SourcePlace(file.string()));
-    return text;
+    if (!std::filesystem::exists(status))
+        throw Error(ErrorKind::input, "{}: the scene can't be opened: no such file",
+                    SourcePlace(file.string()));
+    const InputFile input(file);
+    if (input.size() > kMaxSceneBytes)
+        throw Error(ErrorKind::limit,
+                    "{}: a scene file has at most 64 MiB; keep meshes in files of their own",
+                    SourcePlace(file.string()));
+    return input.read_all(kMaxSceneBytes);
 }
 
 void check_version(const SceneFields& fields) {

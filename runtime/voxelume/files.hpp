@@ -137,6 +137,10 @@ void check_output_file(const std::filesystem::path& file);
 /// A hash of a file's bytes, 32 hexadecimal digits; empty for a file that can't be read.
 std::string hash_of_file(const std::filesystem::path& file);
 
+/// The bytes of a file. Throws Error::input for what is missing, can't be read or isn't a plain
+/// file, without waiting for data, and Error::limit for a file of more than `max_bytes`.
+std::string read_file(const std::filesystem::path& file, uint64_t max_bytes);
+
 /// Writes a file that appears whole or not at all. Throws Error::output.
 void write_file(const std::filesystem::path& file, std::string_view text);
 

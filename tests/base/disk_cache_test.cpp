@@ -7,6 +7,7 @@
 
 #include <fstream>
 
+#include "runtime/base/files/private_folder.hpp"
 #include "runtime/base/files/process_tag.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/setting.hpp"
@@ -193,6 +194,24 @@ TEST_F(DiskCacheFiles, LinksAndPipesAreNotFollowed) {
     EXPECT_EQ(real.read(key_of("one")), std::nullopt);
     ASSERT_EQ(mkfifo((folder / "real" / key_of("three")).c_str(), 0600), 0);
     EXPECT_EQ(real.read(key_of("three")), std::nullopt);
+}
+
+TEST_F(DiskCacheFiles, AUsersOwnLinkMayLeadToTheCacheAndNoOtherUsers) {
+    fs::create_directory(folder / "real");
+    for (const char* link : {"link", "foreign"})
+        fs::create_directory_symlink(folder / "real", folder / link);
+    const DiskCache cache(folder / "link" / "models", 1000);
+    cache.write(key_of("one"), "bytes");
+    EXPECT_EQ(DiskCache(folder / "real" / "models", 1000).read(key_of("one")), "bytes");
+    EXPECT_EQ(cache.refusal(), "");
+    EXPECT_EQ(refusal_of_base(folder / "link"), "");
+    if (geteuid() != 0) return;  // who alone can give links away
+    ASSERT_EQ(lchown((folder / "foreign").c_str(), 1, 1), 0);
+    const DiskCache foreign(folder / "foreign" / "models", 1000);
+    EXPECT_EQ(foreign.read(key_of("one")), std::nullopt);
+    EXPECT_EQ(foreign.refusal(), "another user's link leads to it");
+    EXPECT_NE(refusal_of_base(folder / "foreign"), "");
+    EXPECT_FALSE(make_safe_parent(folder / "foreign" / ""));
 }
 
 TEST_F(DiskCacheFiles, WhatAKilledProcessLeftIsRemoved) {

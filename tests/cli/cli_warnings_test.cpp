@@ -240,10 +240,18 @@ TEST_F(CliWarningsTest, SayOnceThatTheCacheCannotBeWrittenToTheSuperuser) {
     };
     const std::string render = "voxelume render scene.json -o a.exr --channels Z";
     is_told_once("VOXELUME_CACHE_DIR=file " + render, "Not a directory");
+    std::filesystem::create_directories(folder / "cache" / "programs");
+    std::filesystem::permissions(folder / "cache" / "programs", std::filesystem::perms::all);
+    is_told_once("VOXELUME_CACHE_DIR=cache voxelume check scene.json",
+                 "other users may write to it; `chmod go-w` forbids them");
     const std::string mount =
         "unshare -m sh -c 'mount -t tmpfs none fixed && mount -o remount,ro fixed && ";
     if (run_line(mount + "true'").exit_code != 0) GTEST_SKIP() << "nothing can be mounted here";
     is_told_once(mount + "VOXELUME_CACHE_DIR=fixed " + render + "'", "Read-only file system");
+    is_told_once(
+        "unshare -m sh -c 'mount -t tmpfs -o size=100k none fixed && "
+        "VOXELUME_CACHE_DIR=fixed voxelume check scene.json'",
+        "its disk has only 0.1 MB left");
 }
 
 TEST_F(CliWarningsTest, CannotSteerTheTerminal) {

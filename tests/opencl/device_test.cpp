@@ -122,6 +122,7 @@ void open_with_drivers(const std::filesystem::path& folder) {
     setenv("OCL_ICD_VENDORS", (folder.string() + "/").c_str(), 1);
     const auto [code, sentence] = refusal("auto");
     std::fprintf(stderr, "%s\n", sentence.c_str());
+    std::filesystem::remove_all(folder);  // exit() leaves out what TearDown() does
     std::exit(code);
 }
 

@@ -27,9 +27,9 @@ def main():
             ["broken_disks.py", program, library, "--calls", part(64)],
             ["damaged_files.py", program, "--files", part(20000)],
             ["endurance.py", program, "--frames", part(10000, MIN_FRAMES),
-             "--processes", part(10000, 4)]]
-    if options.share * 2000 >= MIN_SEQUENCE:
-        runs.append(["sequences.py", program, "--frames", part(2000), "--times", part(20)])
+             "--processes", part(10000, 4)],
+            ["sequences.py", program, "--frames", part(2000, MIN_SEQUENCE), "--times",
+             part(20, 1)]]
     codes = [subprocess.run([sys.executable, HERE / run[0], *run[1:]]).returncode for run in runs]
     return int(any(codes))
 

@@ -23,29 +23,44 @@ def strangers(cache):
             if path.name.endswith(".tmp") or path.name.startswith(("pocl.", "pocl-"))]
 
 
+KILLS_A_CACHE = 16  # one of so many is of a run with a cold cache, which takes long; the first, too
+
+
 class Kills:
     def __init__(self, program, folder, seed):
         self.program, self.folder = program, folder
         self.random = random.Random(seed)
         self.out, self.tally = folder / "out", Tally("kills")
+        self.commands = [*outputs.commands(), *outputs.long_commands()]
         self.seconds, self.whole, self.kills, self.caches = {}, {}, 0, 0
+        self.images = {}  # by scene
 
     def prepare(self):
         outputs.write_inputs(self.folder)
         for arguments in outputs.PREPARATIONS:
             assert run(self.program, arguments, self.folder).code == 0
-        for name, arguments in outputs.commands():
-            self.out.mkdir()
-            result = run(self.program, arguments, self.folder)
-            assert result.code == 0, (name, result)
-            started = time.monotonic()  # its kernels are compiled by now
+
+    def measure(self, name, arguments):
+        """Keeps what a run writes that nobody kills, and how long it takes."""
+        self.out.mkdir()
+        result = run(self.program, arguments, self.folder)
+        assert result.code == 0, (name, result)
+        started = time.monotonic()  # its kernels are compiled by now
+        assert run(self.program, arguments, self.folder).code == 0
+        self.seconds[name] = time.monotonic() - started
+        self.whole[name] = visible(files_below(self.out))
+        shutil.rmtree(self.out)
+
+    def image_of(self, arguments):
+        if arguments[1] not in self.images:
             assert run(self.program, arguments, self.folder).code == 0
-            self.seconds[name] = time.monotonic() - started
-            self.whole[name] = visible(files_below(self.out))
-            shutil.rmtree(self.out)
+            self.images[arguments[1]] = (self.folder / "a.png").read_bytes()
+        return self.images[arguments[1]]
 
     def kill_output(self, name, arguments):
         """Kills a run that may find what an earlier one left, then lets one end."""
+        if name not in self.whole:
+            self.measure(name, arguments)
         self.out.mkdir()
         faults = []
         for _ in range(self.random.randint(1, 3)):
@@ -67,18 +82,24 @@ class Kills:
     def kill_cache(self):
         """Kills a run that fills a cache of its own."""
         cache = self.folder / "cache"
-        arguments = ["render", "scene.json", "-q", "-o", "a.png"]
+        arguments = self.random.choice([["render", "scene.json", "-q", "-o", "a.png"],
+                                        ["render", "mesh.json", "-q", "-o", "a.png"],
+                                        ["warm", "mesh.json", "-q"]])
         environment = {"VOXELUME_CACHE_DIR": str(cache)}
         moment = self.random.uniform(0, 4)
         run(self.program, arguments, self.folder, kill_after=moment, environment=environment)
         result = run(self.program, arguments, self.folder, environment=environment)
         faults = [] if result.code == 0 else [f"the next run ends with {result.code}: {result.err}"]
+        if arguments[0] == "render" and result.code == 0:
+            found = (self.folder / "a.png").read_bytes()
+            if found != self.image_of(arguments):
+                faults.append("the next run writes another image")
         if left := strangers(cache):
             faults.append(f"the next run leaves {left} after a kill at {moment:.4f} s")
         shutil.rmtree(cache, ignore_errors=True)
         self.kills += 1
         self.caches += 1
-        self.tally.add("cache", faults)
+        self.tally.add(f"cache, {arguments[0]} {arguments[1]}", faults)
 
 
 def main():
@@ -90,12 +111,11 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         kills = Kills(options.program.resolve(), pathlib.Path(folder), options.seed)
         kills.prepare()
-        commands = list(outputs.commands())
         while kills.kills < options.kills:
-            if kills.random.random() < 0.05:
+            if kills.caches * KILLS_A_CACHE <= kills.kills:
                 kills.kill_cache()
             else:
-                kills.kill_output(*kills.random.choice(commands))
+                kills.kill_output(*kills.random.choice(kills.commands))
         return kills.tally.end(f", seed {options.seed}: {kills.kills} kills, {kills.caches} of "
                                "them with cold caches") > 0
 

@@ -10,6 +10,7 @@
 #include "runtime/analysis/warnings/inside_warnings.hpp"
 #include "runtime/analysis/warnings/mesh_warnings.hpp"
 #include "runtime/analysis/warnings/object_warnings.hpp"
+#include "runtime/base/files/disk_cache.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene/shutter.hpp"
@@ -85,15 +86,33 @@ void add_volume_warning(const Scene& scene, std::vector<Warning>& warnings) {
         add_once(local_volume_warning(scene), warnings);
 }
 
-void add_cache_warning(const ModelCache& cache, std::vector<Warning>& warnings) {
-    const std::string refusal = cache.refusal();
+/// Adds the warning that a folder of the cache keeps nothing, and what each run does because of it.
+void add_cache_warning(const std::filesystem::path& folder, const std::string& refusal,
+                       const char* consequence, std::vector<Warning>& warnings) {
     if (refusal.empty()) return;
-    add_once({WarningKind::cache_not_writable, SourcePlace(cache.folder().string()),
-              fmt::format("nothing can be kept in this folder ({}), so each run voxelizes and "
-                          "compiles everything again: name another one with VOXELUME_CACHE_DIR, "
-                          "or use --no-cache",
-                          refusal)},
+    add_once({WarningKind::cache_not_writable, SourcePlace(folder.string()),
+              fmt::format("nothing can be kept in this folder ({}), so each run {}", refusal,
+                          consequence)},
              warnings);
+}
+
+void add_cache_warnings(const ModelCache& cache, std::vector<Warning>& warnings) {
+    if (!cache.is_open()) return;
+    const std::string models = cache.refusal();
+    const DiskCache programs(programs_folder(), 0);
+    const std::string refusal = programs.refusal();
+    const bool has_one_cause =
+        models == refusal && cache.folder().parent_path() == programs.folder().parent_path();
+    add_cache_warning(cache.folder(), models,
+                      has_one_cause ? "voxelizes and compiles everything again: name another one "
+                                      "with VOXELUME_CACHE_DIR, or use --no-cache"
+                                    : "voxelizes everything again: name another one, or use "
+                                      "--no-cache",
+                      warnings);
+    if (has_one_cause) return;
+    add_cache_warning(programs.folder(), refusal,
+                      "compiles all kernels again: name another one with VOXELUME_CACHE_DIR",
+                      warnings);
 }
 
 /// True if an object shows the same file, or a solid, as in another frame.
@@ -131,7 +150,7 @@ std::vector<Warning> still_true(const Scene& first, const Scene& now,
 std::vector<Warning> scene_warnings(const Scene& scene, std::span<const int> frames,
                                     AssetStore& meshes) {
     std::vector<Warning> lasting, warnings;
-    add_cache_warning(meshes.cache(), lasting);
+    add_cache_warnings(meshes.cache(), lasting);
     std::optional<Scene> first;
     for (const int frame : some_of(frames)) {
         if (first && (warnings.empty() || !moves(scene))) break;

@@ -6,6 +6,7 @@
 
 #include "runtime/api/describe/describe.hpp"
 #include "runtime/base/files/input_file.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/scene/parts/light.hpp"
 #include "runtime/scene/parts/observer.hpp"
 #include "runtime/scene/parts/solid.hpp"
@@ -80,9 +81,7 @@ bool is_scene(const std::filesystem::path& path) {
     constexpr uint64_t kLongestHeader = uint64_t{1} << 24;
     const InputFile file(path);
     if (file.size() > kLongestHeader) return true;
-    std::string text(file.size(), '\0');
-    file.read(0, text.data(), text.size());
-    const Report json = Report::parse(text, nullptr, false);
+    const auto json = parse_json_text<Report>(file.read_all(kLongestHeader));
     if (json.is_discarded()) return true;
     return json.is_object() && (json.contains("voxelume") || json.contains("objects"));
 }

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "runtime/base/files/input_file.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
 #include "runtime/io/volume/volume_kv6_read.hpp"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 /// Adds the display's keys as the frame's text has them, and the observer's position instead of its
 /// matrix.
 void add_volume_frame(Report& report, const VolumeFrame& frame) {
-    const Report text = Report::parse(write_frame_text(frame));
+    const auto text = parse_json_text<Report>(write_frame_text(frame));
     report["layout"] = text["layout"];
     report["display"] = text["shape"];
     report["size"] = text["size"];
@@ -40,7 +41,7 @@ Report read_header(const InputFile& file) {
     constexpr uint64_t kLongestHeader = uint64_t{1} << 24;
     std::string text(std::min(file.size(), kLongestHeader), '\0');
     file.read(0, text.data(), text.size());
-    const Report header = Report::parse(text, nullptr, false);
+    const auto header = parse_json_text<Report>(text);
     return header.is_object() && header.contains("voxelume_volume") ? header : Report();
 }
 

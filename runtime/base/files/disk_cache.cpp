@@ -91,6 +91,11 @@ bool is_temporary(const std::string& name) {
 /// The reason why no file can be made in a folder; empty if one can. Leaves nothing behind.
 /// Permissions alone don't tell: root has all of them for /proc, where nobody can make a file.
 std::string refusal_of_new_entries(const fs::path& folder) {
+    constexpr uintmax_t kRoom = 4u << 20;  // bytes of some scenes' kernels
+    std::error_code error;
+    const fs::space_info space = fs::space(folder, error);
+    if (!error && space.available < kRoom)
+        return fmt::format("its disk has only {:.1f} MB left", double(space.available) / 1e6);
     const int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
     if (file >= 0) {
         close(file);
@@ -121,6 +126,11 @@ fs::path cache_folder() {
     return home.is_absolute() ? home / ".cache" / "voxelume" : fs::path();
 }
 
+fs::path programs_folder() {
+    const fs::path folder = cache_folder();
+    return folder.empty() ? folder : folder / "programs";
+}
+
 std::vector<fs::path> cache_bases(const std::string& name) {
     std::vector<fs::path> bases;
     const char* folders = std::getenv("VOXELUME_CACHE_DIR");
@@ -134,10 +144,11 @@ std::vector<fs::path> cache_bases(const std::string& name) {
 }
 
 std::string refusal_of_base(const fs::path& base) {
-    if (const PrivateFolder folder = PrivateFolder::open_base(base); !folder)
-        return folder.is_missing() ? "there is no such folder" : folder.refusal();
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(base, error)) {
+    const fs::path real = is_link_to_follow(base) ? fs::canonical(base, error) : base;
+    if (const PrivateFolder folder = PrivateFolder::open_base(real); !folder)
+        return folder.is_missing() ? "there is no such folder" : folder.refusal();
+    for (const auto& entry : fs::directory_iterator(real, error)) {
         if (!entry.is_directory(error)) continue;
         if (const PrivateFolder folder = PrivateFolder::open_base(entry.path()); !folder)
             return fmt::format("{}: {}", entry.path().filename().string(), folder.refusal());

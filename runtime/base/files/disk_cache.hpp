@@ -18,6 +18,9 @@ namespace voxelume {
 /// VOXELUME_CACHE_DIR ends with nothing.
 std::filesystem::path cache_folder();
 
+/// The folder of compiled kernels below `cache_folder()`; empty without a cache.
+std::filesystem::path programs_folder();
+
 /// The folders before the last one of VOXELUME_CACHE_DIR, between colons: what is in them is read,
 /// and nothing is written there. With `name`, the folders of that name below them.
 std::vector<std::filesystem::path> cache_bases(const std::string& name = {});
@@ -50,8 +53,9 @@ class DiskCache {
     std::optional<std::string> read(const std::string& key) const noexcept;
     void write(const std::string& key, std::string_view bytes) const noexcept;
 
-    /// Why nothing can be written, in the words of the system: "Permission denied". Empty if
-    /// something can be, and for a cache that keeps nothing. Asking leaves no file behind.
+    /// Why nothing can be written, in the words of the system: "Permission denied", or that its
+    /// disk has only some megabytes left. Empty if something can be, and for a cache that keeps
+    /// nothing. Asking leaves no file behind.
     std::string refusal() const;
     const std::filesystem::path& folder() const { return folder_; }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "runtime/base/error.hpp"
 
@@ -12,7 +13,8 @@ namespace voxelume {
 /// A file to read. Every failure is an Error::input that names the file.
 class InputFile {
   public:
-    /// Opens the file. Throws if it is missing, may not be read or isn't a plain file.
+    /// Opens the file. Throws if it is missing, may not be read or isn't a plain file;
+    /// files of /proc and /sys aren't.
     explicit InputFile(const std::filesystem::path& path);
     /// Takes a descriptor that is open already, as a helper program does; `path` is for messages.
     InputFile(const std::filesystem::path& path, int descriptor);
@@ -26,6 +28,9 @@ class InputFile {
 
     /// Fills `data` from `position`. Throws if the file ends before `size` bytes are read.
     void read(uint64_t position, void* data, size_t size) const;
+
+    /// Returns all bytes. Throws Error::limit if the file has more than `max_bytes`.
+    std::string read_all(uint64_t max_bytes) const;
 
     /// Throws Error::input "PATH: REASON".
     [[noreturn]] void refuse(const std::string& reason) const;

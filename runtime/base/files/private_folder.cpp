@@ -24,7 +24,28 @@ void make_folders(const fs::path& path) {
     }
 }
 
+/// The status of a link, if the path is one.
+bool find_link(const fs::path& path, struct stat& status) {
+    // If the name ended in a slash, the link's target would be found.
+    const fs::path name = path.has_filename() ? path : path.parent_path();
+    return lstat(name.c_str(), &status) == 0 && S_ISLNK(status.st_mode);
+}
+
+bool is_trusted_owner(const struct stat& status) {
+    return status.st_uid == geteuid() || status.st_uid == 0;
+}
+
+bool is_foreign_link(const fs::path& path) {
+    struct stat status {};
+    return find_link(path, status) && !is_trusted_owner(status);
+}
+
 }  // namespace
+
+bool is_link_to_follow(const fs::path& path) {
+    struct stat status {};
+    return find_link(path, status) && is_trusted_owner(status);
+}
 
 PrivateFolder PrivateFolder::open(const fs::path& path) {
     return open_trusted(path, false);
@@ -38,12 +59,16 @@ PrivateFolder PrivateFolder::open_trusted(const fs::path& path, bool may_be_root
     PrivateFolder folder;
     // If the name ended in a slash, a link's target would be opened.
     const fs::path name = path.has_filename() ? path : path.parent_path();
+    if (is_foreign_link(name.parent_path())) {
+        folder.refusal_ = "another user's link leads to it";
+        return folder;
+    }
     folder.descriptor_ =
         ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     if (folder.descriptor_ < 0) {
         folder.is_missing_ = errno == ENOENT;
         struct stat status {};
-        const bool is_link = lstat(name.c_str(), &status) == 0 && S_ISLNK(status.st_mode);
+        const bool is_link = find_link(name, status);
         folder.refusal_ = is_link ? "a link in the place of a folder isn't followed"
                                   : std::strerror(errno == ELOOP ? ENOTDIR : errno);
         return folder;
@@ -76,6 +101,7 @@ PrivateFolder::~PrivateFolder() {
 }
 
 bool make_safe_parent(const fs::path& path) {
+    if (is_foreign_link(path)) return false;
     make_folders(path);
     struct stat status {};
     if (stat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return false;

@@ -11,7 +11,8 @@ namespace voxelume {
 /// reached through its descriptor, so that nobody can put another folder in its place meanwhile.
 class PrivateFolder {
   public:
-    /// Opens the folder. A link in its place isn't followed; links above it are.
+    /// Opens the folder. A link in its place isn't followed; one in the place of the folder above
+    /// it is, if this user or root made it, and so are links further up.
     static PrivateFolder open(const std::filesystem::path& path);
     /// Opens a folder to read from, which may be root's as well.
     static PrivateFolder open_base(const std::filesystem::path& path);
@@ -38,9 +39,12 @@ class PrivateFolder {
     bool is_missing_ = false;
 };
 
+/// True for a link that this user or root made.
+bool is_link_to_follow(const std::filesystem::path& path);
+
 /// Makes the folder for this user alone if it is missing, with those above it. Returns whether
 /// others can't rename what this user puts there: it is this user's or root's, and others can't
-/// write to it or it is sticky, as /tmp is.
+/// write to it or it is sticky, as /tmp is, and no other user's link leads to it.
 bool make_safe_parent(const std::filesystem::path& path);
 
 }  // namespace voxelume

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/base/files/temporary_files.hpp"
 
-#include <unistd.h>
-
 #include <mutex>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace voxelume {
@@ -48,7 +47,8 @@ TemporaryFile& TemporaryFile::operator=(TemporaryFile&& other) noexcept {
 void delete_temporary_files() {
     FileRegister& all = registered_files();
     const std::lock_guard lock(all.mutex);
-    for (const std::filesystem::path& file : all.files) unlink(file.c_str());
+    std::error_code ignored;
+    for (const std::filesystem::path& file : all.files) std::filesystem::remove_all(file, ignored);
 }
 
 }  // namespace voxelume

@@ -6,7 +6,8 @@
 
 namespace voxelume {
 
-/// A file that is deleted by `delete_temporary_files`, as long as this lives.
+/// A file, or a folder with all that is in it, that is deleted by `delete_temporary_files`, as long
+/// as this lives.
 class TemporaryFile {
   public:
     TemporaryFile() = default;

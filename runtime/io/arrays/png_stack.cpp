@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "runtime/base/error.hpp"
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/image/png_values.hpp"
@@ -25,9 +26,15 @@ std::vector<std::filesystem::path> slices_from(const std::filesystem::path& firs
     std::vector<std::filesystem::path> slices = {first};
     if (digits.empty()) return slices;
     for (uint64_t number = std::stoull(digits) + 1; slices.size() <= kMaxSlices; ++number) {
-        const auto next =
-            companion_file(first, fmt::format("{}{:0{}}{}", stem.substr(0, start), number,
-                                              digits.size(), first.extension().string()));
+        const std::string name = fmt::format("{}{:0{}}{}", stem.substr(0, start), number,
+                                             digits.size(), first.extension().string());
+        const auto next = companion_file(first, name);
+        const std::filesystem::path path = first.parent_path() / name;
+        std::error_code error;
+        if (!next && std::filesystem::exists(std::filesystem::symlink_status(path, error)))
+            throw Error(ErrorKind::input,
+                        "{}: the name of a slice, and no plain file of the folder; remove it",
+                        SourcePlace(path.string()));
         if (!next) break;
         slices.push_back(*next);
     }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/gltf/data_uri.hpp"
 #include "runtime/io/mesh/companion_file.hpp"
@@ -20,7 +21,6 @@ namespace {
 
 constexpr size_t kMaxJson = size_t{64} << 20;
 constexpr size_t kMaxBuffers = size_t{16} << 30;
-constexpr int kMaxLevels = 64;
 
 /// Extensions that are shown, or that change nothing that is shown.
 constexpr std::array<std::string_view, 16> kKnown = {"KHR_lights_punctual",
@@ -47,26 +47,6 @@ bool is_known(const std::string& extension) {
 uint32_t load_word(std::string_view bytes, size_t at) {
     const auto byte = [&](size_t i) { return uint32_t{static_cast<unsigned char>(bytes[at + i])}; };
     return byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24;
-}
-
-/// The maximum nesting depth of objects and lists in a JSON text, up to its first error.
-int depth_of(std::string_view text) {
-    int depth = 0, deepest = 0;
-    bool in_string = false;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            in_string = c != '"';
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '{' || c == '[') {
-            deepest = std::max(deepest, ++depth);
-        } else if (c == '}' || c == ']') {
-            --depth;
-        }
-    }
-    return deepest;
 }
 
 /// The chunks of a .glb, or the text of a .gltf.
@@ -142,10 +122,11 @@ void GltfFile::parse_json(std::string_view text) {
     if (text.size() > kMaxJson)
         throw Error(ErrorKind::limit, "{}: {} bytes of JSON; at most 64 MiB are read",
                     SourcePlace(name_), text.size());
-    if (depth_of(text) > kMaxLevels)
-        throw Error(ErrorKind::limit, "{}: JSON of {} levels; at most {} are read",
-                    SourcePlace(name_), depth_of(text), kMaxLevels);
-    json_ = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
+    bool is_too_deep = false;
+    json_ = parse_json_text<nlohmann::json>(text, &is_too_deep);
+    if (is_too_deep)
+        throw Error(ErrorKind::limit, "{}: its JSON has more than {} levels", SourcePlace(name_),
+                    kMaxJsonLevels);
     if (!json_.is_object())
         throw Error(ErrorKind::input, "{}: its JSON can't be read; it is damaged or no glTF",
                     SourcePlace(name_));
@@ -249,11 +230,7 @@ std::vector<uint8_t> GltfFile::image(const GltfValue& image) const {
 std::vector<std::filesystem::path> gltf_companions(const std::string& bytes,
                                                    const std::filesystem::path& path) {
     std::vector<std::filesystem::path> files;
-    const std::string_view text = chunks_of(bytes, path.string()).json;
-    const nlohmann::json json =
-        depth_of(text) > kMaxLevels
-            ? nlohmann::json()
-            : nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
+    const auto json = parse_json_text<nlohmann::json>(chunks_of(bytes, path.string()).json);
     for (const char* const list : {"buffers", "images"}) {
         if (!json.is_object() || !json.contains(list)) continue;
         for (const nlohmann::json& item : json[list]) {

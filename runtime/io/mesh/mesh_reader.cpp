@@ -2,6 +2,7 @@
 // Reads a mesh file into memory and passes it to the reader of its format.
 #include "runtime/io/mesh/mesh_reader.hpp"
 
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/huge_pages.hpp"
 #include "runtime/geometry/mesh_normals.hpp"
 #include "runtime/io/mesh/mesh_source.hpp"
@@ -9,9 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <new>
 #include <system_error>
 
@@ -22,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// A limit above the size of the largest allowed mesh as binary PLY (13 bytes a triangle). A larger
 /// file could only exhaust the memory.
-constexpr uintmax_t kMaxFileBytes = uintmax_t{16} << 30;
+constexpr uint64_t kMaxFileBytes = uint64_t{16} << 30;
 
 std::string read_bytes(const fs::path& path) {
     const std::string name = path.string();
@@ -38,27 +36,17 @@ std::string read_bytes(const fs::path& path) {
         throw Error(ErrorKind::input, "{}: {}, not a mesh file", SourcePlace(name),
                     fs::is_directory(status) ? "a directory" : "a device or pipe");
     }
-    const uintmax_t size = fs::file_size(path, error);
-    if (error) {
-        throw Error(ErrorKind::input, "{}: can't be read: {}", SourcePlace(name), error.message());
-    }
+    const InputFile file(path);
+    const uint64_t size = file.size();
     if (size > kMaxFileBytes) {
         throw Error(ErrorKind::limit, "{}: {} bytes, and a mesh file has at most {} here; split it",
                     name, size, kMaxFileBytes);
     }
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
     std::string bytes;
-    if (file) {
-        bytes.reserve(size);
-        advise_huge_pages(bytes.data(), bytes.capacity());
-        bytes.resize(size);
-        file.read(bytes.data(), static_cast<std::streamsize>(size));
-    }
-    if (!file) {
-        throw Error(ErrorKind::input, "{}: can't be read: {}", SourcePlace(name),
-                    errno != 0 ? std::strerror(errno) : "it became shorter meanwhile");
-    }
+    bytes.reserve(size);
+    advise_huge_pages(bytes.data(), bytes.capacity());
+    bytes.resize(size);
+    file.read(0, bytes.data(), size);
     return bytes;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 
 namespace voxelume {
@@ -109,7 +110,11 @@ std::string write_frame_text(const VolumeFrame& frame) {
 
 VolumeFrame read_frame_text(std::string_view text, const std::string& where) {
     try {
-        const VolumeFrame frame = take_frame(Json::parse(text));
+        const auto json = parse_json_text<Json>(text);
+        if (json.is_discarded())
+            throw Error(ErrorKind::input, "{}: its {} is damaged: no JSON of at most {} levels",
+                        where, kFrameKey, kMaxJsonLevels);
+        const VolumeFrame frame = take_frame(json);
         const std::string fault = find_fault(frame);
         if (fault.empty()) return frame;
         throw Error(ErrorKind::input, "{}: {}", where, fault);

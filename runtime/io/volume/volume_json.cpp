@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/volume/volume_json.hpp"
 
-#include <fstream>
 #include <system_error>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/files/input_file.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
@@ -15,15 +16,17 @@ namespace voxelume {
 namespace {
 
 /// The maximum size of a header. Headers are much shorter; scenes may be longer.
-constexpr uintmax_t kMaxHeaderBytes = 1 << 20;
+constexpr uint64_t kMaxHeaderBytes = 1 << 20;
 
 }  // namespace
 
 VolumeJson read_header(const VolumePath& header, VolumeFormat format) {
-    std::error_code failed;
-    if (std::filesystem::file_size(header, failed) > kMaxHeaderBytes || failed) return {};
-    std::ifstream file(header, std::ios::binary);
-    VolumeJson json = VolumeJson::parse(file, nullptr, false);
+    VolumeJson json;
+    try {
+        json = parse_json_text<VolumeJson>(InputFile(header).read_all(kMaxHeaderBytes));
+    } catch (const Error&) {
+        return {};
+    }
     const bool is_one = json.is_object() && json.contains("voxelume_volume") &&
                         json.value("format", VolumeJson()) == volume_format_name(format);
     return is_one ? json : VolumeJson();
@@ -60,7 +63,7 @@ VolumeJson start_header(const VolumePath& data, const Volume& volume, VolumeForm
     }
     header["units"] = {{"length", "metre"}, {"angle", "radian"}};
     header["world_from_voxels"] = matrix;
-    header[kFrameKey] = VolumeJson::parse(write_frame_text(frame));
+    header[kFrameKey] = parse_json_text<VolumeJson>(write_frame_text(frame));
     header["attributes"] = volume.attributes;
     return header;
 }

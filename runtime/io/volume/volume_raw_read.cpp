@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "runtime/base/files/input_file.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
@@ -18,9 +19,7 @@ VolumeJson read_header(const VolumePath& path) {
     constexpr uint64_t kLongestHeader = uint64_t{1} << 24;
     const InputFile file(path);
     if (file.size() > kLongestHeader) file.refuse("too long for a header");
-    std::string text(file.size(), '\0');
-    file.read(0, text.data(), text.size());
-    VolumeJson header = VolumeJson::parse(text, nullptr, false);
+    auto header = parse_json_text<VolumeJson>(file.read_all(kLongestHeader));
     if (!header.is_object() || !header.contains("voxelume_volume"))
         file.refuse("not the header of a volume");
     if (header["voxelume_volume"] != 1) file.refuse("a volume of a later version; update voxelume");

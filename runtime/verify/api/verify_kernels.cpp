@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of kernels, and the launches of each on a device, for callers.
+// The list of kernels, and the launches of each on a device, for callers, and a folder for what
+// tests of a device read.
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
+#include "runtime/base/files/temporary_folder.hpp"
 #include "runtime/opencl/self_test/self_test.hpp"
 #include "runtime/opencl/source/kernel_source.hpp"
 #include "runtime/voxelume_verify.hpp"
@@ -19,6 +21,13 @@ void add_kernels(const std::string& file, std::string_view text, std::vector<Ker
 }
 
 }  // namespace
+
+std::shared_ptr<const std::filesystem::path> make_temporary_folder() {
+    return api::guarded([] {
+        const auto folder = std::make_shared<const TemporaryFolder>();
+        return std::shared_ptr<const std::filesystem::path>(folder, &folder->path());
+    });
+}
 
 std::vector<KernelName> kernel_names() {
     std::vector<KernelName> names;

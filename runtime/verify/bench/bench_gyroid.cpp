@@ -2,7 +2,6 @@
 #include "runtime/verify/bench/bench_gyroid.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include <memory>
 
 #include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/files/temporary_folder.hpp"
 
 namespace voxelume {
 namespace {
@@ -117,9 +117,7 @@ class TetrahedraMarch {
 /// A mesh as binary PLY. The file is removed with its last owner.
 class TemporaryMesh {
   public:
-    explicit TemporaryMesh(const Mesh& mesh)
-        : file_(std::filesystem::temp_directory_path() /
-                fmt::format("voxelume-bench-{}.ply", getpid())) {
+    explicit TemporaryMesh(const Mesh& mesh) {
         std::string bytes = fmt::format(
             "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty "
             "float y\nproperty float z\nelement face {}\nproperty list uchar uint "
@@ -131,21 +129,15 @@ class TemporaryMesh {
             bytes += '\3';
             bytes.append(reinterpret_cast<const char*>(&t), sizeof t);
         }
-        AtomicFile file(file_.string());
+        AtomicFile file(path().string());
         file.write(bytes.data(), bytes.size());
         file.commit();
     }
-    TemporaryMesh(const TemporaryMesh&) = delete;
-    TemporaryMesh& operator=(const TemporaryMesh&) = delete;
-    ~TemporaryMesh() {
-        std::error_code ignored;
-        std::filesystem::remove(file_, ignored);
-    }
 
-    const std::filesystem::path& file() const { return file_; }
+    std::filesystem::path path() const { return folder_.path() / "gyroid.ply"; }
 
   private:
-    std::filesystem::path file_;
+    TemporaryFolder folder_;
 };
 
 /// The part of a ray inside the ball that contains the surface; empty if `first` > `last`.
@@ -209,7 +201,7 @@ BenchSubject gyroid_subject() {
         Scene scene = empty_bench_scene(resolution, size);
         Model model;
         model.name = "gyroid";
-        model.mesh = mesh->file();
+        model.mesh = mesh->path();
         add_bench_object(scene, std::move(model), surface, resolution, glm::dmat4(1));
         return scene;
     };

@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/files/input_file.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/verify/bench/bench.hpp"
@@ -142,14 +143,11 @@ void read_global(const Json& json, const std::string& file, PeerResults& peers) 
 }
 
 Json parsed(const std::filesystem::path& file) {
-    std::ifstream stream(file);
+    constexpr uint64_t kMaxBytes = uint64_t{16} << 20;
     if (std::filesystem::is_directory(file))
         throw Error(ErrorKind::input, "{}: this is a folder, not a file of bench_peers",
                     file.string());
-    if (!stream)
-        throw Error(ErrorKind::input, "{}: {}", file.string(),
-                    std::filesystem::exists(file) ? "no permission to read it" : "no such file");
-    return Json::parse(stream, nullptr, false);
+    return parse_json_text<Json>(InputFile(file).read_all(kMaxBytes));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/json_text.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/verify/analytic/analytic_tracer.hpp"
 #include "runtime/verify/bench/bench.hpp"
@@ -20,7 +21,7 @@ struct TracedScene {
 }  // namespace
 
 Scene whitted_scene(Surface surface, int resolution, glm::ivec2 size) {
-    auto document = nlohmann::json::parse(whitted_text(), nullptr, true, true);
+    auto document = parse_json_text<nlohmann::json>(whitted_text(), nullptr, true);
     document["world"]["voxel_size"] = 1.0 / resolution;
     auto& models = document["models"];
     if (!lists_primitives(surface)) {

@@ -56,6 +56,34 @@ TEST_F(CliBadInputTest, FilesThatNothingReadsAreNamedByTheirEnding) {
     EXPECT_THAT(expect_failure(3, "check scene.txt"), HasSubstr("this is not JSON"));
 }
 
+/// The library of JSON calls itself for each level, and 110,000 levels exhausted the stack.
+TEST_F(CliBadInputTest, DeepJsonIsRefusedByEveryCommand) {
+    const std::string deep = std::string(300'000, '[') + std::string(300'000, ']');
+    const std::string member = "{\"zz\":" + deep + ",";
+    const auto deepened = [&](const std::string& name) {
+        std::string bytes = bytes_of(folder / name);
+        const size_t frame = bytes.find("voxelume_frame:={");
+        const size_t brace = frame == std::string::npos ? bytes.find('{') : bytes.find('{', frame);
+        put_bytes(folder / name, bytes.replace(brace, 1, member));
+    };
+    ASSERT_EQ(run("render scene.json -q --volume v.nrrd --volume w.raw").exit_code, 0);
+    ASSERT_EQ(run("render scene.json -q -o p.exr --shard 1/1").exit_code, 0);
+    for (const char* name : {"v.nrrd", "w.json", "p.exr.1-of-1.shard"}) deepened(name);
+    for (const char* name : {"v.nrrd", "w.raw"}) {
+        expect_failure(4, std::string("info ") + name);
+        expect_failure(4, std::string("convert ") + name + " o.nrrd");
+        expect_failure(4, std::string("view ") + name + " -o o.png");
+    }
+    expect_failure(4, "merge p.exr.1-of-1.shard");
+    expect_failure(5, "render scene.json --volume w.raw");
+    put_bytes(folder / "a.gltf", member + "\"asset\":{\"version\":\"2.0\"}}");
+    EXPECT_THAT(expect_failure(8, "check a.gltf"), HasSubstr("more than 64 levels"));
+    put_bytes(folder / "peers.json", member + "\"size\":[4,4],\"rows\":[]}");
+    expect_failure(4, "bench -q --peers peers.json");
+    put_bytes(folder / "scene.json", member + "\"voxelume\":1}");
+    EXPECT_THAT(expect_failure(3, "info scene.json"), HasSubstr("more than 64 levels"));
+}
+
 TEST_F(CliBadInputTest, WrongScenesNamePlaceAndNearestName) {
     write_scene([](Json& scene) { scene["world"]["voxel_size"] = -0.1; });
     EXPECT_THAT(expect_render_failure(3), HasSubstr("world.voxel_size: must be above 0"));

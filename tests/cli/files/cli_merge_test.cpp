@@ -51,8 +51,8 @@ TEST_F(CliMergeTest, AForeignPartIsRefusedWithTheReason) {
     EXPECT_THAT(mixed("", "1/3"), HasSubstr("one is of 2 parts, the other of 3"));
     EXPECT_EQ(run("merge p.exr.2-of-2.shard.exr").exit_code, 2);
     EXPECT_THAT(refusal("scene.json"), HasSubstr("isn't a part of a run"));
-    EXPECT_THAT(refusal("nothing.shard"), HasSubstr("there is no such file"));
-    EXPECT_THAT(refusal("/dev/zero"), HasSubstr("/dev/zero: isn't a file"));
+    EXPECT_THAT(refusal("nothing.shard"), HasSubstr("nothing.shard: no such file"));
+    EXPECT_THAT(refusal("/dev/zero"), HasSubstr("/dev/zero: isn't a plain file"));
 }
 
 TEST_F(CliMergeTest, ADamagedPartIsCalledThat) {

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "tests/cli/scene_program.hpp"
+#include "tests/support/setting.hpp"
 
 namespace voxelume {
 
@@ -36,15 +37,41 @@ TEST_F(CliSpecialFilesTest, AreRefusedByEveryCommand) {
         expect_refused("render " + file + " -o o.png");
         expect_refused("diff " + file + " " + file);
         expect_refused("voxelize " + file + " -o o.vxm");
+        expect_refused("import " + file + " -o o.json");
+        expect_refused("warm " + file);
+        expect_refused("merge " + file);
+        expect_refused("bench -q --peers " + file);
     }
+    expect_refused("merge /proc/self/mem");
+}
+
+TEST_F(CliSpecialFilesTest, AreRefusedAsSettings) {
+    for (const char* target : {"pipe", "folder", "/dev/zero", "/proc/self/environ", "/proc/kmsg"}) {
+        const Setting setting("VOXELUME_CONFIG", target);
+        expect_refused("config");
+    }
+    put_bytes(folder / "large", "# ");
+    std::filesystem::resize_file(folder / "large", uintmax_t{3} << 30);
+    const Setting setting("VOXELUME_CONFIG", "large");
+    expect_refused("config");
+}
+
+/// A sparse file of 3 GB was read whole.
+TEST_F(CliSpecialFilesTest, PartsThatAreTooLargeAreRefusedBeforeTheyAreRead) {
+    put_bytes(folder / "a.shard", "{");
+    std::filesystem::resize_file(folder / "a.shard", uintmax_t{3} << 30);
+    const ProgramResult result = run_line("ulimit -v 2000000; timeout 20 voxelume merge a.shard");
+    EXPECT_EQ(result.exit_code, 8);
+    EXPECT_THAT(result.err, HasSubstr("a.shard: 3221225472 bytes, and such a file has at most"));
 }
 
 TEST_F(CliSpecialFilesTest, AreRefusedUnderTheNamesOfEveryFormat) {
     for (const char* ending :
-         {"obj", "ply", "stl", "vxm", "vdb", "exr", "png", "nrrd", "raw", "kv6", "json"}) {
+         {"obj", "ply", "stl", "vxm", "vdb", "exr", "png", "nrrd", "raw", "kv6", "json", "foo"}) {
         const std::string name = std::string("a.") + ending;
-        for (const char* target : {"pipe", "/dev/zero", "/proc/self/environ"}) {
+        for (const char* target : {"pipe", "/dev/zero", "/proc/kmsg"}) {
             std::filesystem::create_symlink(target, folder / name);
+            expect_refused("check " + name);
             expect_refused("info " + name);
             expect_refused("convert " + name + " o.nrrd");
             expect_refused("view " + name + " -o o.png");

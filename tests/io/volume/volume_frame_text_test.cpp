@@ -42,6 +42,9 @@ TEST(VolumeFrameTextTest, WhatIsNoFrameIsAnInputError) {
         EXPECT_EQ(refusal(old, by).exit_code(), 4) << by;
     EXPECT_THAT(refusal("\"size\":[7,5,3]", "\"size\":[7,5,99999]").what(),
                 HasSubstr("a.vdb: it has 99999 voxels along an axis"));
+    const std::string deep = std::string(150'000, '[') + std::string(150'000, ']');
+    EXPECT_THAT(refusal("\"layout\"", "\"zz\":" + deep + ",\"layout\"").what(),
+                HasSubstr("a.vdb: its voxelume_frame is damaged: no JSON of at most 64 levels"));
 }
 
 }  // namespace voxelume

@@ -122,6 +122,17 @@ TEST_F(VolumeRawTest, AHeaderLeadsToNoOtherFolder) {
     }
 }
 
+TEST_F(VolumeRawTest, AHeaderOfManyLevelsIsNeitherReadNorReplaced) {
+    write_volume(data(), lattice_volume());
+    std::string deep = bytes_of(header());
+    deep.insert(1, "\"zz\":" + std::string(300'000, '[') + std::string(300'000, ']') + ",");
+    put_bytes(header(), deep);
+    EXPECT_THAT(error_of([&] { read_volume(header()); }).what(),
+                HasSubstr("not the header of a volume"));
+    EXPECT_EQ(error_of([&] { write_volume(data(), lattice_volume()); }).exit_code(), 5);
+    EXPECT_TRUE(bytes_of(header()) == deep);
+}
+
 TEST_F(VolumeRawTest, AFullDiskLeavesNothing) {
     expect_full_disk_leaves_nothing(data(), lattice_volume());
 }

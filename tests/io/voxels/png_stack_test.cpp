@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stacks of PNG slices, which the test writes itself: values, colours, and what is refused.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <limits>
 #include <map>
@@ -105,6 +106,24 @@ TEST_F(PngStackTest, OfColoursIsCubes) {
                                                              {{0, 1, 0}, 0x0000FF},
                                                              {{1, 1, 0}, 0x0000FF}};
     EXPECT_EQ(colors, expected);
+}
+
+/// The stack ended there without a word.
+TEST_F(PngStackTest, WithASliceThatIsNoPlainFileIsRefused) {
+    const std::filesystem::path first = deep_stack(), third = folder / "ct010.png";
+    const auto expect_named = [&] {
+        EXPECT_THAT(refused_stack(first),
+                    HasSubstr("ct010.png: the name of a slice, and no plain file of the folder"));
+        std::filesystem::remove(third);
+    };
+    std::filesystem::remove(third);
+    ASSERT_EQ(mkfifo(third.c_str(), 0600), 0);
+    expect_named();
+    std::filesystem::create_directory(third);
+    expect_named();
+    std::filesystem::create_symlink("nowhere", third);
+    expect_named();
+    EXPECT_EQ(read_png_stack_header(first).size(), glm::ivec3(5, 3, 2));
 }
 
 TEST_F(PngStackTest, ThatIsDamagedOrUnevenIsRefused) {
