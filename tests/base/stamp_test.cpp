@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "runtime/base/files/atomic_file.hpp"
 #include "tests/support/file_fixture.hpp"
 
@@ -73,6 +76,21 @@ TEST_F(StampTest, WhatHasNoSealedStampIsDamaged) {
     std::filesystem::remove(path());
     std::filesystem::create_directory(path());
     EXPECT_EQ(check_stamp(path(), kHash), StampState::damaged);
+}
+
+TEST_F(StampTest, AFileThatCantBeReadIsToldFromOneWithoutAStamp) {
+    const std::string bytes = stamp_of(kHash) + std::string(3 << 20, 'p');
+    const auto all_but = [&bytes](uint64_t unreadable) {
+        return [&bytes, unreadable](uint64_t at, char* data, size_t size) {
+            if (at <= unreadable && unreadable < at + size) throw std::runtime_error("broken");
+            bytes.copy(data, size, at);
+        };
+    };
+    EXPECT_TRUE(seal_of(bytes.size(), all_but(bytes.size())).has_value());
+    EXPECT_THROW(seal_of(bytes.size(), all_but(0)), std::runtime_error);
+    EXPECT_THROW(seal_of(bytes.size(), all_but(2 << 20)), std::runtime_error);
+    const auto none = [](uint64_t, char* data, size_t size) { std::fill_n(data, size, 'n'); };
+    EXPECT_FALSE(seal_of(1000, none).has_value());
 }
 
 TEST_F(StampTest, BytesInMemoryAreSealedLikeFiles) {
