@@ -66,6 +66,25 @@ TEST_F(StampTest, AnyChangedByteOrLengthIsDamage) {
     EXPECT_EQ(check_stamp(path(), kHash), StampState::current);
 }
 
+TEST_F(StampTest, InAPngFileTheSumOfItsChunkIsCheckedToo) {
+    const std::string bytes = std::string("\x89PNG\r\n\x1a\n", 8) + "....tEXtComment" + '\0' +
+                              stamp_of(kHash) + "sum." + "other chunks";
+    {
+        AtomicFile file(path());
+        file.write(bytes.data(), bytes.size());
+        file.commit();
+    }
+    const std::string sealed = bytes_of(path());
+    EXPECT_EQ(is_as_written(path()), true);
+    EXPECT_EQ(sealed.find("sum."), std::string::npos);
+    for (size_t at = 8; at < sealed.size(); ++at) {
+        std::string damaged = sealed;
+        damaged[at] = char(damaged[at] ^ 1);
+        put_bytes(path(), damaged);
+        EXPECT_NE(is_as_written(path()), true) << at;
+    }
+}
+
 TEST_F(StampTest, WhatHasNoSealedStampIsDamaged) {
     for (const std::string& bytes :
          {std::string(), std::string("voxelume-frame="), "x" + stamp_of(kHash),

@@ -155,9 +155,9 @@ class StampedFile {
     }
     /// Reads all of the file, once.
     bool is_whole() try {
-        const std::string_view check =
-            std::string_view(header_).substr(offsets_->check, kCheckDigits);
-        return check_of(header_, *offsets_, *rest_) == check;
+        std::string sealed = header_;
+        put_check(sealed, *offsets_, check_of(header_, *offsets_, *rest_));
+        return sealed == header_;
     } catch (const std::system_error&) {
         return false;
     }
