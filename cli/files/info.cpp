@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // voxelume info FILE: describes what a file contains.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 
+#include "cli/shared/checks.hpp"
 #include "cli/shared/commands.hpp"
 #include "cli/shared/import_options.hpp"
 #include "cli/shared/report.hpp"
@@ -36,14 +39,29 @@ Report report_of(const Facts& facts) {
     return report;
 }
 
+/// The end of the message on a file that isn't whole.
+const char* fault_of(FileIntegrity found, const std::string& ending) {
+    constexpr std::array kInTwoFiles = {".json",    ".raw",    ".planes",
+                                        ".cplanes", ".rgb332", ".rgb565"};
+    constexpr std::array kWithoutPlace = {".kv6", ".binvox", ".npy", ".vox"};
+    const auto is_one_of = [&](const auto& endings) {
+        return std::ranges::find(endings, ending) != endings.end();
+    };
+    if (found == FileIntegrity::damaged)
+        return is_one_of(kInTwoFiles)
+                   ? "is damaged, or the header or data beside it: the bytes aren't those that "
+                     "were written"
+                   : "is damaged: its bytes aren't those that were written";
+    return is_one_of(kWithoutPlace)
+               ? "can't be verified: its format has no place for a checksum"
+               : "has no checksum; those files have one that `render` writes, volumetric images "
+                 "made of them, and voxels in .vxm, .vdb and .nrrd";
+}
+
 void check_integrity(const std::string& path) {
     const FileIntegrity found = verify_file(path);
     if (found == FileIntegrity::whole) return;
-    const char* reason = found == FileIntegrity::damaged
-                             ? "is damaged: its bytes aren't those that were written"
-                             : "has no checksum; .exr, .png, .nrrd, .vdb and .ply files that "
-                               "`render` writes have one, and .vxm files";
-    throw Error(ErrorKind::input, path + ": " + reason, {path});
+    throw Error(ErrorKind::input, path + ": " + fault_of(found, ending_of(path)), {path});
 }
 
 }  // namespace

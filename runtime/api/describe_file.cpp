@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
@@ -12,13 +11,13 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/input_file.hpp"
-#include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
+#include "runtime/io/volume/volume_json.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 #include "runtime/voxelume/files.hpp"
 
@@ -126,13 +125,16 @@ Report describe_model(const fs::path& path) {
     return report;
 }
 
-/// True if all parts of a voxelized model match their checksums.
-bool is_model_whole(const fs::path& path) try {
-    read_model_file(path);
-    return true;
-} catch (const Error& error) {
-    if (error.kind() != ErrorKind::input) throw;
-    return false;
+/// Raw data, or those of a display's own format, which the header beside them describes.
+Report describe_volume_data(const fs::path& path) {
+    return describe_volume_header(header_path_of(path));
+}
+
+bool is_volume_data(const fs::path& path) {
+    constexpr std::array kEndings = {".raw", ".planes", ".cplanes", ".rgb332", ".rgb565"};
+    std::error_code error;
+    return std::ranges::find(kEndings, ending_of(path)) != kEndings.end() &&
+           fs::is_regular_file(header_path_of(path), error);
 }
 
 /// A volumetric image of ours, or what is in a file of an array.
@@ -169,6 +171,7 @@ Describe find_description(const fs::path& path) {
     for (const FileKind& kind : kKinds)
         if (ending == kind.ending) return kind.describe;
     if (voxel_file_format(path) != nullptr) return describe_voxel_file;
+    if (is_volume_data(path)) return describe_volume_data;
     return ending == ".json" ? describe_volume_header : describe_mesh;
 }
 
@@ -230,16 +233,6 @@ Facts describe_slices(const std::filesystem::path& first) {
         api::Report report = {{"file", first.string()}};
         report.update(api::describe_array(first, *format));
         return api::facts_of(report, {});
-    });
-}
-
-FileIntegrity verify_file(const std::filesystem::path& file) {
-    return api::guarded([&] {
-        const bool is_model = api::find_description(file) == api::describe_model;
-        const std::optional<bool> as_written =
-            is_model ? api::is_model_whole(file) : is_as_written(file);
-        if (!as_written) return FileIntegrity::unknown;
-        return *as_written ? FileIntegrity::whole : FileIntegrity::damaged;
     });
 }
 

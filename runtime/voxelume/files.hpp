@@ -119,8 +119,9 @@ enum class FileIntegrity {
     damaged   ///< the file has other bytes
 };
 
-/// Reads all of a file of render_frames or of a .vxm and compares it with its checksums. Throws
-/// Error::input for a file that can't be read.
+/// Reads all of a file and compares it with its checksums: images and volumetric images of
+/// render_frames, with the data if it is a header and with the header if it has the data; models
+/// (.vxm); OpenVDB volumes. Throws Error::input for a file that can't be read.
 FileIntegrity verify_file(const std::filesystem::path& file);
 
 /// The frames of a list like "1-10,20,30-60x5", in its order. Throws Error::usage.

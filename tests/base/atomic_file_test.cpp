@@ -11,6 +11,7 @@
 #include <csignal>
 
 #include "runtime/base/files/process_tag.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {
@@ -101,6 +102,32 @@ TEST_F(AtomicFileTest, ALaterFailureDoesntHideTheFirst) {
     }
     const Error error = error_of([&] { file.fail("Error writing to stream"); });
     EXPECT_THAT(error.what(), HasSubstr("a.bin: can't be written: the file grows"));
+}
+
+TEST_F(AtomicFileTest, OtherBytesThanWereWrittenGetNoName) {
+    const std::string bytes(200000, 'v');
+    for (const size_t at : {size_t(0), size_t(65536), bytes.size() - 1, bytes.size()}) {
+        AtomicFile file(folder / "a.bin");
+        file.write(bytes.data(), bytes.size());
+        std::string changed = bytes + (at == bytes.size() ? "v" : "");
+        changed[at] = 'w';
+        put_bytes(file.temporary(), changed);
+        const Error error = error_of([&] { file.commit(); });
+        EXPECT_EQ(error.exit_code(), 5) << at;
+        EXPECT_THAT(error.what(), HasSubstr("a.bin: can't be written: other bytes are read back"));
+    }
+    EXPECT_EQ(files_in_folder(), 0u);
+}
+
+TEST_F(AtomicFileTest, AStampSealsNoOtherBytesThanWereWritten) {
+    {
+        AtomicFile file(folder / "a.bin");
+        const std::string bytes = stamp_of(kNoFrame) + std::string(200000, 'v');
+        file.write(bytes.data(), bytes.size());
+        put_bytes(file.temporary(), stamp_of(kNoFrame) + std::string(200000, 'w'));
+        EXPECT_EQ(error_of([&] { file.commit(); }).exit_code(), 5);
+    }
+    EXPECT_EQ(files_in_folder(), 0u);
 }
 
 TEST_F(AtomicFileTest, AFolderThatTakesNoFilesIsToldFromAMissingOne) {

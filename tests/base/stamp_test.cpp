@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "runtime/base/files/atomic_file.hpp"
 #include "tests/support/file_fixture.hpp"
 
@@ -63,6 +66,25 @@ TEST_F(StampTest, AnyChangedByteOrLengthIsDamage) {
     EXPECT_EQ(check_stamp(path(), kHash), StampState::current);
 }
 
+TEST_F(StampTest, InAPngFileTheSumOfItsChunkIsCheckedToo) {
+    const std::string bytes = std::string("\x89PNG\r\n\x1a\n", 8) + "....tEXtComment" + '\0' +
+                              stamp_of(kHash) + "sum." + "other chunks";
+    {
+        AtomicFile file(path());
+        file.write(bytes.data(), bytes.size());
+        file.commit();
+    }
+    const std::string sealed = bytes_of(path());
+    EXPECT_EQ(is_as_written(path()), true);
+    EXPECT_EQ(sealed.find("sum."), std::string::npos);
+    for (size_t at = 8; at < sealed.size(); ++at) {
+        std::string damaged = sealed;
+        damaged[at] = char(damaged[at] ^ 1);
+        put_bytes(path(), damaged);
+        EXPECT_NE(is_as_written(path()), true) << at;
+    }
+}
+
 TEST_F(StampTest, WhatHasNoSealedStampIsDamaged) {
     for (const std::string& bytes :
          {std::string(), std::string("voxelume-frame="), "x" + stamp_of(kHash),
@@ -73,6 +95,21 @@ TEST_F(StampTest, WhatHasNoSealedStampIsDamaged) {
     std::filesystem::remove(path());
     std::filesystem::create_directory(path());
     EXPECT_EQ(check_stamp(path(), kHash), StampState::damaged);
+}
+
+TEST_F(StampTest, AFileThatCantBeReadIsToldFromOneWithoutAStamp) {
+    const std::string bytes = stamp_of(kHash) + std::string(3 << 20, 'p');
+    const auto all_but = [&bytes](uint64_t unreadable) {
+        return [&bytes, unreadable](uint64_t at, char* data, size_t size) {
+            if (at <= unreadable && unreadable < at + size) throw std::runtime_error("broken");
+            bytes.copy(data, size, at);
+        };
+    };
+    EXPECT_TRUE(seal_of(bytes.size(), all_but(bytes.size())).has_value());
+    EXPECT_THROW(seal_of(bytes.size(), all_but(0)), std::runtime_error);
+    EXPECT_THROW(seal_of(bytes.size(), all_but(2 << 20)), std::runtime_error);
+    const auto none = [](uint64_t, char* data, size_t size) { std::fill_n(data, size, 'n'); };
+    EXPECT_FALSE(seal_of(1000, none).has_value());
 }
 
 TEST_F(StampTest, BytesInMemoryAreSealedLikeFiles) {

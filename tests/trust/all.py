@@ -24,7 +24,7 @@ def main():
         return str(max(minimum, round(count * options.share)))
 
     runs = [["kills.py", program, "--kills", part(1000)],
-            ["broken_disks.py", program, library, "--calls", part(64)],
+            ["broken_disks.py", program, library, "--tries", part(192)],
             ["damaged_files.py", program, "--files", part(20000)],
             ["endurance.py", program, "--frames", part(10000, MIN_FRAMES),
              "--processes", part(10000, 4)],

@@ -3,8 +3,10 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
@@ -12,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "runtime/base/files/process_tag.hpp"
 #include "runtime/base/files/stamp.hpp"
@@ -23,6 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kEnding = ".tmp";
+constexpr size_t kReadAtOnce = 16 * WrittenBlocks::kBlock;  // bytes
 
 fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -147,6 +151,8 @@ void AtomicFile::create_temporary() {
 
 void AtomicFile::write(const void* data, size_t size) {
     const char* bytes = static_cast<const char*>(data);
+    const auto from_file = [this](uint64_t at, char* to, size_t count) { read(at, to, count); };
+    if (!written_.put(position_, bytes, size, from_file)) fail_as_changed();
     while (size > 0) {
         const ssize_t written = pwrite(descriptor_, bytes, size, static_cast<off_t>(position_));
         if (written < 0 && errno == EINTR) continue;
@@ -158,10 +164,52 @@ void AtomicFile::write(const void* data, size_t size) {
     }
 }
 
+void AtomicFile::read(uint64_t position, char* data, size_t size) {
+    while (size > 0) {
+        const ssize_t got = pread(descriptor_, data, size, static_cast<off_t>(position));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail_with_errno(errno);
+        if (got == 0) fail_as_changed();
+        data += got;
+        size -= static_cast<size_t>(got);
+        position += static_cast<uint64_t>(got);
+    }
+}
+
+/// `position` and `size` are as WrittenBlocks::match asks for.
+void AtomicFile::read_and_compare(uint64_t position, char* data, size_t size) {
+    read(position, data, size);
+    if (!written_.match(position, data, size)) fail_as_changed();
+}
+
+void AtomicFile::put_seal() {
+    const std::optional<StampSeal> found =
+        seal_of(written_.size(), [this](uint64_t position, char* data, size_t size) {
+            read_and_compare(position, data, size);
+        });
+    if (!found) return;
+    position_ = found->position;
+    write(found->bytes.data(), found->bytes.size());
+}
+
+/// The system's copies are dropped first, so that the disk's bytes are read where the file system
+/// allows that.
+void AtomicFile::read_back() {
+    posix_fadvise(descriptor_, 0, 0, POSIX_FADV_DONTNEED);
+    struct stat status {};
+    if (fstat(descriptor_, &status) != 0) fail_with_errno(errno);
+    const uint64_t size = written_.size();
+    if (static_cast<uint64_t>(status.st_size) != size) fail_as_changed();
+    std::vector<char> bytes(std::min<uint64_t>(size, kReadAtOnce));
+    for (uint64_t at = 0; at < size; at += bytes.size())
+        read_and_compare(at, bytes.data(), std::min<uint64_t>(bytes.size(), size - at));
+}
+
 void AtomicFile::commit() {
     if (failure_) throw *failure_;
-    seal(descriptor_);
+    put_seal();
     if (fsync(descriptor_) != 0) fail_with_errno(errno);
+    read_back();
     const int closing = descriptor_;
     descriptor_ = -1;
     if (close(closing) != 0) fail_with_errno(errno);
@@ -178,7 +226,11 @@ void AtomicFile::sync_folder() {
     if (folder < 0) return;
     const int code = fsync(folder) == 0 ? 0 : errno;
     close(folder);
-    if (code != 0 && code != EINVAL && code != ENOTSUP) fail_with_errno(code);
+    if (code == 0 || code == EINVAL || code == ENOTSUP) return;
+    throw Error(ErrorKind::output,
+                "{}: is written and whole, but may be lost if the power fails now, as its folder "
+                "can't be synced: {}",
+                SourcePlace(target_.string()), reason_for(code, folder_of(final_)));
 }
 
 void AtomicFile::fail(const std::string& reason) {
@@ -186,6 +238,12 @@ void AtomicFile::fail(const std::string& reason) {
         failure_ = Error(ErrorKind::output, "{}: can't be written: {}",
                          SourcePlace(target_.string()), reason);
     throw *failure_;
+}
+
+void AtomicFile::fail_as_changed() {
+    fail(
+        "other bytes are read back than were written; the disk or the memory is faulty: write to "
+        "another disk");
 }
 
 void AtomicFile::fail_with_errno(int code) {

@@ -9,6 +9,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/byte_sink.hpp"
 #include "runtime/base/files/temporary_files.hpp"
+#include "runtime/base/files/written_blocks.hpp"
 
 namespace voxelume {
 
@@ -36,8 +37,9 @@ class AtomicFile final : public ByteSink {
     /// The current path of the bytes. A verifying reader opens it before commit().
     const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Seals the bytes' stamp if they have one, writes them to the disk and gives the file its
-    /// name.
+    /// Seals the bytes' stamp if they have one, writes them to the disk, reads them back from there
+    /// and gives the file its name if they are what was written. If then the folder can't be
+    /// synced, the file stays, and the error says that it is whole.
     void commit();
 
     /// Throws the first failure of this file, which is `reason` if there was none before: what a
@@ -46,7 +48,12 @@ class AtomicFile final : public ByteSink {
 
   private:
     [[noreturn]] void fail_with_errno(int code);
+    [[noreturn]] void fail_as_changed();
     void create_temporary();
+    void read(uint64_t position, char* data, size_t size);
+    void read_and_compare(uint64_t position, char* data, size_t size);
+    void put_seal();
+    void read_back();
     void sync_folder();
 
     std::filesystem::path target_;  ///< path as the user named it
@@ -56,6 +63,7 @@ class AtomicFile final : public ByteSink {
     int descriptor_ = -1;
     int lock_ = -1;  ///< the same file, locked until it has its name
     uint64_t position_ = 0;
+    WrittenBlocks written_;  ///< what is meant to be in the file
     std::optional<Error> failure_;
 };
 

@@ -4,11 +4,15 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <string>
 
 #include "runtime/base/error.hpp"
 
 namespace voxelume {
+
+/// Fills `data` with a file's bytes from a position on, or throws.
+using ReadBytes = std::function<void(uint64_t position, char* data, size_t size)>;
 
 /// Takes bytes at a position that moves on.
 class ByteSink {

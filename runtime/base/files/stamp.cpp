@@ -13,7 +13,8 @@
 #include <cstring>
 #include <memory>
 #include <optional>
-#include <vector>
+#include <system_error>
+#include <utility>
 
 namespace voxelume {
 namespace {
@@ -22,7 +23,6 @@ constexpr std::string_view kStampBegin = "voxelume-frame=", kStampMiddle = " che
 constexpr size_t kHashDigits = 32, kCheckDigits = kStampCheckDigits;
 constexpr size_t kStampLength =
     kStampBegin.size() + kHashDigits + kStampMiddle.size() + kCheckDigits;
-constexpr size_t kStampHeader = size_t{1} << 20;  // stamps lie in the headers of files
 constexpr std::string_view kPngStart = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view kTextChunk = "tEXt";
 
@@ -81,44 +81,27 @@ class StampHasher {
 /// The first bytes of a file, and the rest in pieces.
 class StampReader {
   public:
-    explicit StampReader(int descriptor) : descriptor_(descriptor) {}
+    StampReader(uint64_t size, ReadBytes read) : size_(size), read_(std::move(read)) {}
 
-    /// False when the file can't be read. Fewer bytes than `count` are the last ones.
-    bool read(std::string& bytes, size_t count) {
-        struct stat status {};
-        if (fstat(descriptor_, &status) != 0) return false;
-        const size_t size = size_t(status.st_size);
-        count = std::min(count, size - std::min(size, position_));
-        bytes.resize(count);
-        size_t filled = 0;
-        while (filled < count) {
-            const ssize_t now =
-                pread(descriptor_, bytes.data() + filled, count - filled, off_t(position_));
-            if (now < 0 && errno == EINTR) continue;
-            if (now < 0) return false;
-            if (now == 0) break;
-            filled += size_t(now);
-            position_ += size_t(now);
-        }
-        bytes.resize(filled);
-        return true;
+    /// Fewer bytes than `count` are the last ones.
+    std::string next(size_t count) {
+        std::string bytes(size_t(std::min<uint64_t>(count, size_ - position_)), '\0');
+        if (!bytes.empty()) read_(position_, bytes.data(), bytes.size());
+        position_ += bytes.size();
+        return bytes;
     }
 
   private:
-    int descriptor_;
-    size_t position_ = 0;
+    uint64_t size_, position_ = 0;
+    ReadBytes read_;
 };
 
-/// The check of a file whose first bytes are `header`; empty when the rest can't be read.
+/// The check of a file whose first bytes are `header`.
 std::string check_of(std::string header, const StampOffsets& offsets, StampReader& rest) {
     std::memset(&header[offsets.check], 0, offsets.blank);
     StampHasher hasher;
     hasher.add(header);
-    std::string block;
-    do {
-        if (!rest.read(block, kStampHeader)) return {};
-        hasher.add(block);
-    } while (!block.empty());
+    for (std::string block; !(block = rest.next(kStampHeader)).empty();) hasher.add(block);
     return hasher.digits();
 }
 
@@ -132,17 +115,32 @@ void put_check(std::string& header, const StampOffsets& offsets, const std::stri
     for (size_t i = 0; i < 4; ++i) header[end + i] = char(sum >> (24 - 8 * i));
 }
 
+void read_at(int descriptor, uint64_t position, char* data, size_t size) {
+    while (size > 0) {
+        const ssize_t now = pread(descriptor, data, size, off_t(position));
+        if (now < 0 && errno == EINTR) continue;
+        if (now <= 0) throw std::system_error(now < 0 ? errno : EIO, std::generic_category());
+        data += now, size -= size_t(now), position += uint64_t(now);
+    }
+}
+
 /// A file to read, and the stamp near its start.
 class StampedFile {
   public:
     explicit StampedFile(const std::filesystem::path& path)
         : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)),
-          is_missing_(descriptor_ < 0 && errno == ENOENT),
-          rest_(descriptor_) {
+          is_missing_(descriptor_ < 0 && errno == ENOENT) {
         struct stat status {};
-        if (descriptor_ >= 0 && fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) &&
-            rest_.read(header_, kStampHeader))
+        if (descriptor_ < 0 || fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return;
+        rest_ = StampReader(uint64_t(status.st_size), [this](uint64_t at, char* data, size_t size) {
+            read_at(descriptor_, at, data, size);
+        });
+        try {
+            header_ = rest_->next(kStampHeader);
             offsets_ = find_stamp(header_);
+        } catch (const std::system_error&) {
+            return;  // it counts as a file without a stamp
+        }
     }
     ~StampedFile() {
         if (descriptor_ >= 0) close(descriptor_);
@@ -156,16 +154,18 @@ class StampedFile {
         return std::string_view(header_).substr(offsets_->hash, kHashDigits);
     }
     /// Reads all of the file, once.
-    bool is_whole() {
-        const std::string_view check =
-            std::string_view(header_).substr(offsets_->check, kCheckDigits);
-        return check_of(header_, *offsets_, rest_) == check;
+    bool is_whole() try {
+        std::string sealed = header_;
+        put_check(sealed, *offsets_, check_of(header_, *offsets_, *rest_));
+        return sealed == header_;
+    } catch (const std::system_error&) {
+        return false;
     }
 
   private:
     int descriptor_;
     bool is_missing_;
-    StampReader rest_;
+    std::optional<StampReader> rest_;
     std::string header_;
     std::optional<StampOffsets> offsets_;
 };
@@ -193,19 +193,13 @@ bool seal(std::string& bytes) {
     return true;
 }
 
-bool seal(int descriptor) noexcept try {
-    StampReader reader(descriptor);
-    std::string header;
-    if (!reader.read(header, kStampHeader)) return false;
+std::optional<StampSeal> seal_of(uint64_t size, const ReadBytes& read) {
+    StampReader reader(size, read);
+    std::string header = reader.next(kStampHeader);
     const std::optional<StampOffsets> offsets = find_stamp(header);
-    if (!offsets) return false;
-    const std::string digits = check_of(header, *offsets, reader);
-    if (digits.empty()) return false;
-    put_check(header, *offsets, digits);
-    return pwrite(descriptor, &header[offsets->check], offsets->blank, off_t(offsets->check)) ==
-           ssize_t(offsets->blank);
-} catch (const std::exception&) {
-    return false;
+    if (!offsets) return {};
+    put_check(header, *offsets, check_of(header, *offsets, reader));
+    return StampSeal{offsets->check, header.substr(offsets->check, offsets->blank)};
 }
 
 StampState check_stamp(const std::filesystem::path& file, std::string_view hash) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/base/files/byte_sink.hpp"
+
 namespace voxelume {
 
 /// The state of a file by its stamp.
@@ -22,8 +24,14 @@ enum class StampState {
 /// from.
 std::string stamp_of(std::string_view hash);
 
+/// The hash in stamps of files that aren't a frame's, and have a stamp for its check alone.
+inline constexpr std::string_view kNoFrame = "00000000000000000000000000000000";
+
 /// The hexadecimal digits of a stamp's check.
 inline constexpr size_t kStampCheckDigits = 16;
+
+/// The number of a file's first bytes among which its stamp lies.
+inline constexpr size_t kStampHeader = size_t{1} << 20;
 
 /// The position of the stamp's check in a file's first bytes; empty if there is none. Other
 /// checksums in the same file leave the check out.
@@ -34,8 +42,15 @@ std::optional<size_t> stamp_check_offset(std::string_view header);
 /// checksum of its chunk follows. Returns whether there was one.
 bool seal(std::string& bytes);
 
-/// Seals an open file. Throws nothing: a file whose stamp can't be sealed counts as damaged.
-bool seal(int descriptor) noexcept;
+/// The bytes that seal a file, and their position.
+struct StampSeal {
+    uint64_t position = 0;
+    std::string bytes;
+};
+
+/// What seals the stamp of a file of `size` bytes, each of which is read; empty if it has none.
+/// Throws what `read` throws.
+std::optional<StampSeal> seal_of(uint64_t size, const ReadBytes& read);
 
 /// Compares a file with what it should be made from.
 StampState check_stamp(const std::filesystem::path& file, std::string_view hash);

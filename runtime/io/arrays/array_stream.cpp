@@ -17,10 +17,10 @@ void swap_bytes(std::byte* data, size_t size, size_t each) {
 float float_of_half(uint16_t half) {
     // s eeeee mmmmmmmmmm: shifted to a float's bits, the exponent lacks 127 - 15. Multiplying by a
     // power of 2 adds that, and gives subnormal numbers their exponent.
-    uint32_t bits = uint32_t(half & 0x7fff) << 13;
+    const uint32_t bits = uint32_t(half & 0x7fff) << 13;
     const bool is_finite = (half & 0x7c00) != 0x7c00;
     const float magnitude = is_finite ? std::bit_cast<float>(bits) * 0x1p112f
-                                      : std::bit_cast<float>(bits |= 0x7f800000);
+                                      : std::bit_cast<float>(bits | 0x7f800000);
     return (half & 0x8000) != 0 ? -magnitude : magnitude;
 }
 

@@ -2,7 +2,10 @@
 // Temporary storage of compressed chunks until it is their turn in a file.
 #pragma once
 
+#include <xxhash.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,7 +23,8 @@ class ExrChunkSpool {
 
     /// Keeps a chunk, whose first row is `row`. Those of one part come from the top down.
     void put(size_t part, int row, const std::string& bytes) {
-        chunks_.push_back({part, row, file_.position(), bytes.size()});
+        chunks_.push_back(
+            {part, row, file_.position(), bytes.size(), XXH3_64bits(bytes.data(), bytes.size())});
         file_.write(bytes.data(), bytes.size());
     }
 
@@ -33,6 +37,10 @@ class ExrChunkSpool {
         for (const Chunk& chunk : chunks_) {
             bytes.resize(chunk.size);
             written.read(chunk.position, bytes.data(), chunk.size);
+            if (XXH3_64bits(bytes.data(), bytes.size()) != chunk.hash)
+                file_.fail(
+                    "rows that waited in a temporary file have changed; the disk or the "
+                    "memory is faulty: write to another disk");
             write(chunk.part, chunk.row, bytes);
         }
     }
@@ -43,6 +51,7 @@ class ExrChunkSpool {
         int row = 0;
         uint64_t position = 0;
         size_t size = 0;
+        uint64_t hash = 0;
     };
 
     AtomicFile file_;

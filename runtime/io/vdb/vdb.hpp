@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -65,5 +66,9 @@ struct VdbFileSummary {
 /// Reads every grid of a file. Throws Error::input for a file that is missing or that OpenVDB can't
 /// read.
 VdbFileSummary read_vdb_summary(const std::filesystem::path& path);
+
+/// True if a file's identifier is the one that its content has in files of voxelume; empty for a
+/// file of another program. Throws Error::input for a file that can't be read.
+std::optional<bool> is_vdb_as_written(const std::filesystem::path& path);
 
 }  // namespace voxelume

@@ -10,6 +10,7 @@ namespace vdb {
 decltype(voxelume::isolate_vdb_readers) isolate_vdb_readers;
 decltype(voxelume::write_vdb) write_vdb;
 decltype(voxelume::read_vdb_summary) read_vdb_summary;
+decltype(voxelume::is_vdb_as_written) is_vdb_as_written;
 decltype(voxelume::read_vdb_density) read_vdb_density;
 decltype(voxelume::read_vdb_voxels) read_vdb_voxels;
 decltype(voxelume::write_volume_vdb) write_volume_vdb;
@@ -18,7 +19,8 @@ decltype(voxelume::read_volume_vdb) read_volume_vdb;
 }  // namespace vdb
 
 const VdbFunctions voxelume_vdb_functions = {
-    VXL_VERSION,           vdb::isolate_vdb_readers, vdb::write_vdb,        vdb::read_vdb_summary,
-    vdb::read_vdb_density, vdb::read_vdb_voxels,     vdb::write_volume_vdb, vdb::read_volume_vdb};
+    VXL_VERSION,           vdb::isolate_vdb_readers, vdb::write_vdb,
+    vdb::read_vdb_summary, vdb::is_vdb_as_written,   vdb::read_vdb_density,
+    vdb::read_vdb_voxels,  vdb::write_volume_vdb,    vdb::read_volume_vdb};
 
 }  // namespace voxelume

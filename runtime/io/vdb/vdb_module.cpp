@@ -71,6 +71,10 @@ VdbFileSummary read_vdb_summary(const std::filesystem::path& path) {
     return reader_of(path).read_vdb_summary(path);
 }
 
+std::optional<bool> is_vdb_as_written(const std::filesystem::path& path) {
+    return reader_of(path).is_vdb_as_written(path);
+}
+
 std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density) {
     return reader_of(density.file).read_vdb_density(density);
 }

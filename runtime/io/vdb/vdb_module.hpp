@@ -17,6 +17,7 @@ struct VdbFunctions {
     decltype(voxelume::isolate_vdb_readers)* isolate_vdb_readers;
     decltype(voxelume::write_vdb)* write_vdb;
     decltype(voxelume::read_vdb_summary)* read_vdb_summary;
+    decltype(voxelume::is_vdb_as_written)* is_vdb_as_written;
     decltype(voxelume::read_vdb_density)* read_vdb_density;
     decltype(voxelume::read_vdb_voxels)* read_vdb_voxels;
     decltype(voxelume::write_volume_vdb)* write_volume_vdb;

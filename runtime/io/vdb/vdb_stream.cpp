@@ -22,22 +22,20 @@ namespace {
 constexpr uint64_t kUuidStart = 21;
 constexpr uint64_t kUuidLength = 36;
 
-/// Hashes a file's bytes in order, without the identifier.
+/// Hashes a file's bytes in order, without the identifier and with zeros for a stamp's check, which
+/// are written later.
 class ContentHash {
   public:
     ContentHash() : state_(XXH3_createState(), XXH3_freeState) { XXH3_128bits_reset(state_.get()); }
-    /// Adds bytes. Those of the first call contain the whole identifier, or the file has none.
+
     void update(const char* bytes, size_t size) {
-        if (is_first_ && size >= kUuidStart + kUuidLength) {
-            add(bytes, kUuidStart);
-            add(bytes + kUuidStart + kUuidLength, size - kUuidStart - kUuidLength);
-        } else {
-            add(bytes, size);
-        }
-        is_first_ = is_first_ && size == 0;
+        if (!is_in_head_) return add(bytes, size);
+        head_.append(bytes, size);
+        if (head_.size() >= kStampHeader) end_head();
     }
     /// The hash's 128 bits in the form of a version 5 (from a hash) identifier.
-    std::string uuid() const {
+    std::string uuid() {
+        if (is_in_head_) end_head();
         const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
         const uint64_t high = (hash.high64 & ~uint64_t{0xf000}) | 0x5000;
         const uint64_t low = (hash.low64 & ~(uint64_t{3} << 62)) | (uint64_t{2} << 62);
@@ -48,18 +46,29 @@ class ContentHash {
   private:
     void add(const char* bytes, size_t size) { XXH3_128bits_update(state_.get(), bytes, size); }
 
+    void end_head() {
+        if (const auto check = stamp_check_offset(head_))
+            head_.replace(*check, kStampCheckDigits, kStampCheckDigits, '0');
+        const size_t start = std::min<size_t>(kUuidStart, head_.size());
+        const size_t end = std::min<size_t>(kUuidStart + kUuidLength, head_.size());
+        add(head_.data(), start);
+        add(head_.data() + end, head_.size() - end);
+        head_ = {};
+        is_in_head_ = false;
+    }
+
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
-    bool is_first_ = true;
+    std::string head_;  ///< the bytes among which a stamp lies
+    bool is_in_head_ = true;
 };
 
-/// Passes bytes on to an AtomicFile in blocks, each far longer than the file's head, and hashes
-/// them.
+/// Passes bytes on to an AtomicFile in blocks, and hashes them.
 class VdbStreamBuffer : public std::streambuf {
   public:
     explicit VdbStreamBuffer(AtomicFile& file) : file_(file) {
         setp(block_.data(), block_.data() + block_.size());
     }
-    std::string uuid() const { return hash_.uuid(); }
+    std::string uuid() { return hash_.uuid(); }
 
   protected:
     int_type overflow(int_type next) override {
@@ -102,22 +111,37 @@ void write_vdb_grids(AtomicFile& file, const openvdb::GridCPtrVec& grids,
     }
 }
 
+namespace {
+
+/// Empty for a file that is too short.
+std::string identifier_in(const InputFile& file) {
+    if (file.size() < kUuidStart + kUuidLength) return {};
+    std::string uuid(kUuidLength, '\0');
+    file.read(kUuidStart, uuid.data(), uuid.size());
+    return uuid;
+}
+
+}  // namespace
+
 bool vdb_identifier_holds(const InputFile& file) {
-    std::vector<char> block(1 << 20);  // stamps lie in the first
-    std::string uuid;
+    const std::string uuid = identifier_in(file);
+    if (uuid.empty()) return false;
+    std::vector<char> block(std::min<uint64_t>(file.size(), 1 << 20));
     ContentHash hash;
     for (uint64_t position = 0; position < file.size(); position += block.size()) {
         const size_t size = std::min<uint64_t>(block.size(), file.size() - position);
         file.read(position, block.data(), size);
-        if (position == 0 && size >= kUuidStart + kUuidLength)
-            uuid.assign(block.data() + kUuidStart, kUuidLength);
-        // The check of a stamp is written after the identifier.
-        if (position == 0)
-            if (const auto check = stamp_check_offset({block.data(), size}))
-                std::fill_n(block.data() + *check, kStampCheckDigits, '0');
         hash.update(block.data(), size);
     }
     return uuid == hash.uuid();
+}
+
+std::optional<bool> is_vdb_as_written(const std::filesystem::path& path) {
+    constexpr size_t kVersionDigit = 14;  // others' identifiers are random: of version 4
+    const InputFile file(path);
+    const std::string uuid = identifier_in(file);
+    if (uuid.empty() || uuid[kVersionDigit] != '5') return {};
+    return vdb_identifier_holds(file);
 }
 
 }  // namespace voxelume::vdb

@@ -5,6 +5,9 @@
 
 #include <openvdb/openvdb.h>
 
+#include <filesystem>
+#include <optional>
+
 #include "runtime/base/files/atomic_file.hpp"
 #include "runtime/base/files/input_file.hpp"
 
@@ -20,5 +23,7 @@ void write_vdb_grids(AtomicFile& file, const openvdb::GridCPtrVec& grids,
 /// file is unchanged since then. Call this before OpenVDB reads the file in this process: damaged
 /// files corrupt the process's memory.
 bool vdb_identifier_holds(const InputFile& file);
+
+std::optional<bool> is_vdb_as_written(const std::filesystem::path& path);
 
 }  // namespace voxelume::vdb

@@ -108,6 +108,8 @@ void write_volume_slices(const VolumePath& pattern, const Volume& volume) {
     const glm::ivec3& size = volume.frame.size;
     PngOptions options;
     options.keep_alpha = true;
+    const auto stamp = volume.attributes.find("stamp");
+    if (stamp != volume.attributes.end()) options.stamp = stamp->second;
     VolumeRows rows(volume);
     WrittenSlices written;
     for (int k = 0; k < size.z; ++k) {

@@ -9,6 +9,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 
@@ -120,9 +121,10 @@ WriterNotes write_nrrd(const std::filesystem::path& path, const CubeList& cubes)
     const std::string header = fmt::format(
         "NRRD0005\n# Voxels\ntype: uchar\ndimension: {}\nspace: 3D-right-handed\n"
         "sizes: {}{} {} {}\nspace directions: {}({},0,0) (0,{},0) (0,0,{})\nkinds: {}space space "
-        "space\nencoding: gzip\nspace origin: ({},{},{})\nspace units: \"m\" \"m\" \"m\"\n\n",
+        "space\nencoding: gzip\nspace origin: ({},{},{})\nspace units: \"m\" \"m\" "
+        "\"m\"\nstamp:={}\n\n",
         is_color ? 4 : 3, is_color ? "4 " : "", n.x, n.y, n.z, is_color ? "none " : "", e.x, e.y,
-        e.z, is_color ? "RGBA-color " : "", first.x, first.y, first.z);
+        e.z, is_color ? "RGBA-color " : "", first.x, first.y, first.z, stamp_of(kNoFrame));
     AtomicFile file(path);
     file.write(header.data(), header.size());
     write_gzip(file, dense);

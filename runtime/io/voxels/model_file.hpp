@@ -6,7 +6,7 @@
 //    8  u32      version of the container, 1
 //   12  u32      number of header entries
 //   16  u32      number of arrays
-//   20  u32      zero
+//   20  u32      low bits of the xxh3 of all bytes behind the directory; 0 in older files
 //   24  u64      bytes of the directory
 //   32  u64      xxh3 of bytes 0-31 and of the directory
 //   40           directory. Each header entry: u32 length and bytes of its key, then of its value.
@@ -42,6 +42,11 @@ void write_model_file(const std::filesystem::path& path, const ModelFile& model)
 /// Reads and verifies everything. Sizes are checked against the file before memory is allocated.
 /// Throws Error::input for a file that is missing, damaged, truncated or of a later version.
 ModelFile read_model_file(const std::filesystem::path& path);
+
+/// Reads everything, and the bytes that mean nothing, too. False where some aren't those that were
+/// written; in files that tell nothing of the latter, only the content counts. Throws Error::input
+/// for a file that can't be opened.
+bool is_model_as_written(const std::filesystem::path& path);
 
 /// One array as the directory describes it.
 struct ModelArraySummary {

@@ -17,7 +17,7 @@ struct Start {
     uint32_t version = 1;
     uint32_t header_entries = 0;
     uint32_t arrays = 0;
-    uint32_t zero = 0;
+    uint32_t data_sum = 0;
     uint64_t directory_bytes = 0;
     uint64_t checksum = 0;
 };
@@ -25,6 +25,12 @@ static_assert(sizeof(Start) == 40);
 
 /// The bytes of Start, ahead of the directory, that the checksum covers.
 constexpr size_t kCheckedBytes = 32;
+
+/// Start::data_sum of the hash of the bytes behind the directory.
+constexpr uint32_t data_sum_of(uint64_t hash) {
+    const auto low = static_cast<uint32_t>(hash);
+    return low == 0 ? 1 : low;
+}
 
 /// The minimum sizes of the directory's entries: two empty texts for a header entry, an empty name
 /// and five numbers for an array.

@@ -3,6 +3,8 @@
 #include <xxhash.h>
 #include <zstd.h>
 
+#include <memory>
+
 #include "runtime/base/files/atomic_file.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/model_format.hpp"
@@ -81,6 +83,16 @@ uint64_t checksum_of(const model_format::Start& start, const std::string& direct
     return XXH3_64bits(checked.data(), checked.size());
 }
 
+/// Start::data_sum of arrays that are written in this order.
+uint32_t data_sum_of(const std::map<std::string, CompressedArray>& arrays) {
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                         XXH3_freeState);
+    XXH3_64bits_reset(state.get());
+    for (const auto& [name, array] : arrays)
+        XXH3_64bits_update(state.get(), array.bytes.data(), array.bytes.size());
+    return model_format::data_sum_of(XXH3_64bits_digest(state.get()));
+}
+
 }  // namespace
 
 void write_model_file(const std::filesystem::path& path, const ModelFile& model) {
@@ -91,6 +103,7 @@ void write_model_file(const std::filesystem::path& path, const ModelFile& model)
     model_format::Start start;
     start.header_entries = static_cast<uint32_t>(model.header.size());
     start.arrays = static_cast<uint32_t>(arrays.size());
+    start.data_sum = data_sum_of(arrays);
     start.directory_bytes = write_directory(model, arrays).size();
     uint64_t offset = sizeof start + start.directory_bytes;
     for (auto& [name, array] : arrays) {

@@ -72,7 +72,7 @@ TEST_F(ModelFileTest, TheLayoutIsTheDocumentedOne) {
     EXPECT_EQ(u32_at(bytes, 8), 1u);
     EXPECT_EQ(u32_at(bytes, 12), 1u);
     EXPECT_EQ(u32_at(bytes, 16), 1u);
-    EXPECT_EQ(u32_at(bytes, 20), 0u);
+    EXPECT_EQ(u32_at(bytes, 20), uint32_t(XXH3_64bits(&bytes[95], bytes.size() - 95)));
     EXPECT_EQ(u32_at(bytes, 24), 14u + 41u);
     EXPECT_EQ(bytes.substr(40, 14), std::string("\x01\0\0\0k\x05\0\0\0value", 14));
     EXPECT_EQ(bytes.substr(54, 5), std::string("\x01\0\0\0a", 5));
@@ -115,6 +115,34 @@ TEST_F(ModelFileTest, AnyChangedByteIsAnInputError) {
             EXPECT_EQ(error.exit_code(), 4) << i;
         }
     }
+}
+
+TEST_F(ModelFileTest, IsAsWrittenWhereNoBitOfAnyByteIsFlipped) {
+    write_model_file(path(), small_model());
+    const std::string bytes = bytes_of(path());
+    EXPECT_TRUE(is_model_as_written(path()));
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        std::string damaged = bytes;
+        damaged[i] = static_cast<char>(damaged[i] ^ (1 << i % 8));
+        put_bytes(path(), damaged);
+        EXPECT_FALSE(is_model_as_written(path())) << i;
+    }
+    put_bytes(path(), bytes + "x");
+    EXPECT_FALSE(is_model_as_written(path()));
+    put_bytes(path(), bytes);
+    EXPECT_TRUE(is_model_as_written(path()));
+}
+
+TEST_F(ModelFileTest, ThatIsOlderAndHasNoSumOfItsDataIsAsWrittenByItsContent) {
+    write_model_file(path(), small_model());
+    std::string bytes = bytes_of(path());
+    std::memset(&bytes[20], 0, 4);
+    const std::string checked = bytes.substr(0, 32) + bytes.substr(40, u32_at(bytes, 24));
+    const uint64_t checksum = XXH3_64bits(checked.data(), checked.size());
+    std::memcpy(&bytes[32], &checksum, sizeof checksum);
+    put_bytes(path(), bytes);
+    EXPECT_TRUE(is_model_as_written(path()));
+    EXPECT_EQ(read_model_file(path()).arrays, small_model().arrays);
 }
 
 TEST_F(ModelFileTest, ALieAboutTheSizeTakesNoMemory) {

@@ -57,9 +57,10 @@ Returned returned_at(double cosine, double width, double eta) {
         for (int k = 0; k < kParts; ++k) {
             const double turn = std::numbers::pi * (k + 0.5) / kParts;  // the other half mirrors it
             double hx = width * (radius * std::cos(turn) + view_x);
-            double hy = width * radius * std::sin(turn), hz = z + view_z;
+            double hz = z + view_z;
+            const double hy = width * radius * std::sin(turn);
             const double length = std::sqrt(hx * hx + hy * hy + hz * hz);
-            hx /= length, hy /= length, hz /= length;
+            hx /= length, hz /= length;
             const double meets = std::clamp(hx * sine + hz * cosine, 0.0, 1.0);
             const Bend bend = bend_at(eta, meets);
             const double up = 2 * meets * hz - cosine;

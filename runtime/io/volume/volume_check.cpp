@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/io/volume/volume_check.hpp"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "runtime/base/files/input_file.hpp"
+#include "runtime/base/files/stamp.hpp"
+#include "runtime/base/text.hpp"
+#include "runtime/io/volume/volume_json.hpp"
+
+namespace voxelume {
+
+namespace {
+
+/// The header of data; null for a file that is none.
+VolumeJson header_of_data(const VolumePath& path) {
+    using enum VolumeFormat;
+    for (const VolumeFormat format : {raw, planes, color_planes, rgb332, rgb565})
+        if (VolumeJson header = read_header(path, format); !header.empty()) return header;
+    return {};
+}
+
+/// True if the data have the bytes of an entry from `offset` on.
+bool has_bytes(const InputFile& data, uint64_t offset, const VolumeJson& entry) {
+    const auto bytes = entry.at("bytes").get<uint64_t>();
+    if (offset > data.size() || bytes > data.size() - offset) return false;
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                         XXH3_freeState);
+    XXH3_64bits_reset(state.get());
+    std::vector<char> block(std::min<uint64_t>(bytes, 1 << 20));
+    for (uint64_t done = 0; done < bytes; done += block.size()) {
+        block.resize(std::min<uint64_t>(block.size(), bytes - done));
+        data.read(offset + done, block.data(), block.size());
+        XXH3_64bits_update(state.get(), block.data(), block.size());
+    }
+    return entry.at("xxh3_64") == fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
+}
+
+bool is_as_described(const InputFile& data, const VolumeJson& header) {
+    if (!header.contains("arrays"))
+        return header.at("bytes") == data.size() && has_bytes(data, 0, header);
+    uint64_t end = 0;
+    for (const VolumeJson& array : header.at("arrays")) {
+        if (array.at("offset") != end || !has_bytes(data, end, array)) return false;
+        end += array.at("bytes").get<uint64_t>();
+    }
+    return end == data.size();
+}
+
+}  // namespace
+
+std::optional<bool> is_volume_data_as_written(const VolumePath& path) {
+    const bool is_header = ending_of(path) == ".json";
+    const VolumePath header_path = is_header ? path : header_path_of(path);
+    const VolumeJson header = header_of_data(header_path);
+    if (header.empty()) return {};
+    if (is_as_written(header_path) == false) return false;
+    try {
+        const VolumePath name = header.at("data").get<std::string>();
+        if (name.has_parent_path() || !name.has_filename() || name == "..") return false;
+        const InputFile data(is_header ? header_path.parent_path() / name : path);
+        return is_as_described(data, header);
+    } catch (const VolumeJson::exception&) {
+        return false;
+    }
+}
+
+}  // namespace voxelume
