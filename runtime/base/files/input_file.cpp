@@ -48,6 +48,12 @@ void InputFile::read(uint64_t position, void* data, size_t size) const {
     }
 }
 
+std::vector<uint8_t> InputFile::bytes() const {
+    std::vector<uint8_t> bytes(size_);
+    read(0, bytes.data(), bytes.size());
+    return bytes;
+}
+
 void InputFile::refuse(const std::string& reason) const {
     throw Error(ErrorKind::input, "{}: {}", SourcePlace(path_.string()), reason);
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "runtime/base/error.hpp"
 
@@ -26,6 +27,9 @@ class InputFile {
 
     /// Fills `data` from `position`. Throws if the file ends before `size` bytes are read.
     void read(uint64_t position, void* data, size_t size) const;
+
+    /// The whole file.
+    std::vector<uint8_t> bytes() const;
 
     /// Throws Error::input "PATH: REASON".
     [[noreturn]] void refuse(const std::string& reason) const;
