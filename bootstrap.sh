@@ -211,7 +211,7 @@ readers() {
 
 # What `cmake --install` installs.
 installed='voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader voxelume_mesh_decoder'
-installed+=' voxelume_kernel_compiler'
+installed+=' voxelume_image_decoder voxelume_kernel_compiler'
 
 # The wheel holds the library as it is installed; tests see the wheel alone. Both come from pip, as
 # does what builds them.

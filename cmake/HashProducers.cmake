@@ -4,7 +4,7 @@
 # source is generated again when one of them changes.
 function(hash_producers folder output)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/kernels/shared/*.h)
-    set(readers image mesh mesh_codec gltf voxels arrays voxel_art)
+    set(readers image image_codec mesh mesh_codec gltf voxels arrays voxel_art)
     set(others vdb volume) # a model's own distances aren't kept, and volumetric images are no models
     file(GLOB formats RELATIVE ${folder}/io CONFIGURE_DEPENDS ${folder}/io/*)
     foreach(format ${formats})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts where: the program, the library with its header, the module and the reader for OpenVDB,
-# the decoder of meshes, and what CMake and pkg-config need to find the library.
+# the decoders of meshes and images, and what CMake and pkg-config need to find the library.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS voxelume)
@@ -21,7 +21,7 @@ install(CODE "
     execute_process(COMMAND gzip -9nf \"\${share}/man/man1/voxelume.1\" COMMAND_ERROR_IS_FATAL ANY)
 ")
 install(TARGETS voxelume_vdb LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume)
-install(TARGETS voxelume_vdb_reader voxelume_mesh_decoder voxelume_kernel_compiler
+install(TARGETS voxelume_vdb_reader voxelume_mesh_decoder voxelume_image_decoder voxelume_kernel_compiler
         RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume) # beside it
 install(TARGETS voxelume_shared EXPORT voxelumeTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${CMAKE_SOURCE_DIR}/runtime/voxelume.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -26,9 +26,11 @@ struct ProcessOptions {
 
     /// Lets the program voxelume-vdb-reader, which is installed with the library, read OpenVDB
     /// files: damaged ones make OpenVDB corrupt the memory of the process that reads them. The
-    /// program is started by posix_spawn, once for each file. So is voxelume-mesh-decoder, which
-    /// decodes meshes of glTF files that Draco or meshoptimizer has compressed; without this such
-    /// files are refused.
+    /// program is started by posix_spawn, once for each file. So are voxelume-image-decoder, which
+    /// decodes OpenEXR, PNG and JPEG files, and voxelume-mesh-decoder, which decodes meshes of glTF
+    /// files that Draco or meshoptimizer has compressed. Without this the process reads and decodes
+    /// all but such meshes itself; these are refused. The limits of `limit_memory` don't count what
+    /// the programs take.
     bool isolate_readers = false;
 
     /// The maximum number of processes voxelume-kernel-compiler that run in parallel to this

@@ -75,9 +75,14 @@ TEST_F(CliLayersTest, TheDoctorTellsWhyABaseIsNotRead) {
     EXPECT_EQ(state_of(base), "isn't read: other users may write to it; `chmod go-w` forbids them");
     put_bytes(folder / "file", "");
     EXPECT_EQ(state_of(folder / "file"), "isn't read: Not a directory");
-    fs::create_directory_symlink(base, folder / "link");
-    EXPECT_EQ(state_of(folder / "link"),
-              "isn't read: a link in the place of a folder isn't followed");
+    fs::permissions(base, fs::perms::owner_all);
+    fs::permissions(base / "programs", fs::perms::owner_all);
+    fs::create_directory_symlink(base, folder / "link");  // of the user, who named it
+    EXPECT_EQ(state_of(folder / "link"), "is read");
+    fs::rename(base / "programs", folder / "elsewhere");
+    fs::create_directory_symlink(folder / "elsewhere", base / "programs");
+    EXPECT_EQ(state_of(base),
+              "isn't read: programs: a link in the place of a folder isn't followed");
 }
 
 TEST_F(CliLayersTest, ARunTellsOfABaseThatItDoesNotRead) {

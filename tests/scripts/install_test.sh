@@ -40,6 +40,10 @@ compressed=/usr/share/assimp/models/glTF2/draco/2CylinderEngine.gltf
 expect 0 'triangles' info $compressed
 rm "$(find . -name voxelume-mesh-decoder)"
 expect 4 "its compressed meshes can't be read: voxelume-mesh-decoder can't be started" info $compressed
+picture=$scenes/pictures/fog.png
+expect 0 'PNG picture' info "$picture"
+rm "$(find . -name voxelume-image-decoder)"
+expect 4 "can't be read: voxelume-image-decoder can't be started" info "$picture"
 rm "$(find . -name libvoxelume_vdb.so)"
 gone="the part of voxelume for OpenVDB can't be loaded: libvoxelume_vdb.so:"
 expect 4 "a.vdb: can't be read: $gone" info a.vdb

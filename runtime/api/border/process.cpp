@@ -13,6 +13,7 @@
 #include "runtime/base/main_memory.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/image/exr.hpp"
+#include "runtime/io/image_codec/image_codec.hpp"
 #include "runtime/io/mesh_codec/mesh_codec.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/opencl/ahead/kernel_compilers.hpp"
@@ -29,6 +30,7 @@ void apply(const v1::ProcessOptions& options) {
     PoclFolder::allow(options.set_driver_environment);
     isolate_vdb_readers(options.isolate_readers);
     allow_mesh_decoder(options.isolate_readers);
+    decode_images({.is_apart = options.isolate_readers});
     KernelCompilers::instance().allow(options.set_driver_environment ? options.kernel_compilers
                                                                      : 0);
     if (options.image_threads > 0) set_exr_threads(options.image_threads);

@@ -72,6 +72,12 @@ std::string InputFile::read_all(uint64_t max_bytes) const {
     return bytes;
 }
 
+std::vector<uint8_t> InputFile::bytes() const {
+    std::vector<uint8_t> bytes(size_);
+    read(0, bytes.data(), bytes.size());
+    return bytes;
+}
+
 void InputFile::refuse(const std::string& reason) const {
     throw Error(ErrorKind::input, "{}: {}", SourcePlace(path_.string()), reason);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "runtime/base/error.hpp"
 
@@ -31,6 +32,8 @@ class InputFile {
 
     /// Returns all bytes. Throws Error::limit if the file has more than `max_bytes`.
     std::string read_all(uint64_t max_bytes) const;
+    /// The whole file.
+    std::vector<uint8_t> bytes() const;
 
     /// Throws Error::input "PATH: REASON".
     [[noreturn]] void refuse(const std::string& reason) const;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -40,6 +41,13 @@ class WireSender {
         values(std::span<const Value>(vector));
     }
     void text(const std::string& text) { values(std::span<const char>(text)); }
+    void texts(const std::map<std::string, std::string>& texts) {
+        value(uint64_t{texts.size()});
+        for (const auto& [key, value] : texts) {
+            text(key);
+            text(value);
+        }
+    }
 
     void flush() {
         write_out(block_.data(), block_.size());
@@ -99,9 +107,25 @@ class WireReceiver {
         }
         return values;
     }
+    /// Fills `target`. The values are sent with their number, which has to be the same.
+    template <class Value>
+    void fill(std::span<Value> target) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        if (value<uint64_t>() != target.size()) fail();
+        bytes(target.data(), target.size_bytes());
+    }
     std::string text(uint64_t max) {
         const std::vector<char> characters = values<char>(max);
         return {characters.begin(), characters.end()};
+    }
+    /// Texts with keys of at most 64 kB.
+    std::map<std::string, std::string> texts() {
+        std::map<std::string, std::string> texts;
+        for (uint64_t left = count(kMaxEntries); left > 0; --left) {
+            const std::string key = text(1 << 16);
+            texts[key] = text(kMaxText);
+        }
+        return texts;
     }
 
     [[noreturn]] static void fail() {
@@ -112,6 +136,12 @@ class WireReceiver {
     void bytes(void* data, size_t size) {
         char* target = static_cast<char*>(data);
         while (size > 0) {
+            if (first_ == block_.size() && size >= kBlock) {  // large arrays aren't copied
+                const size_t length = helper_.read(target, size);
+                target += length;
+                size -= length;
+                continue;
+            }
             if (first_ == block_.size()) refill();
             const size_t length = std::min(size, block_.size() - first_);
             std::copy_n(block_.data() + first_, length, target);
@@ -126,6 +156,7 @@ class WireReceiver {
         first_ = 0;
     }
 
+    static constexpr uint64_t kMaxEntries = 1 << 20, kMaxText = 1 << 30;
     static constexpr size_t kBlock = 1 << 18;
     HelperProcess& helper_;
     std::vector<char> block_;

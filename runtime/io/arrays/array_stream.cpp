@@ -95,12 +95,17 @@ void ArraySlabs::widen_halves() {
 void ArraySlabs::read_slices() {
     const PngShape shape{array_.counts.x, array_.counts.y, int(8 * bytes_of(array_.type)),
                          array_.channels};
-    bytes_.clear();
-    for (int slice = first_; slice < first_ + layers_; ++slice) {
-        const std::vector<std::byte> values = read_png_values(array_.slices[size_t(slice)], shape);
-        bytes_.insert(bytes_.end(), values.begin(), values.end());
+    if (first_ + layers_ > ahead_end_) {  // several at once: each time may start a program
+        constexpr size_t kAhead = 1 << 22;
+        const int count = std::clamp(int(kAhead / shape.bytes()), layers_, std::max(layers_, 64));
+        ahead_first_ = first_;
+        ahead_end_ = std::min(first_ + count, end_);
+        ahead_ = read_png_values(
+            std::span(array_.slices).subspan(size_t(first_), size_t(ahead_end_ - first_)), shape);
     }
-    plane_ = bytes_.size();
+    plane_ = shape.bytes() * size_t(layers_);
+    const auto* const begin = ahead_.data() + shape.bytes() * size_t(first_ - ahead_first_);
+    bytes_.assign(begin, begin + plane_);
 }
 
 }  // namespace voxelume

@@ -60,6 +60,8 @@ class ArraySlabs {
     int layers_ = 0;
     size_t plane_ = 0;  ///< bytes of a slab, or of one of its channels where they are apart
     std::vector<std::byte> bytes_, halves_;
+    std::vector<std::byte> ahead_;         ///< of a stack of slices: those of several layers
+    int ahead_first_ = 0, ahead_end_ = 0;  ///< which
 };
 
 /// True if a layer can be read without those before it.

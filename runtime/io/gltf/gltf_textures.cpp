@@ -9,6 +9,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/io/image/picture.hpp"
+#include "runtime/io/image_codec/image_codec.hpp"
 #include "runtime/io/mesh/alpha_ramp.hpp"
 #include "runtime/io/mesh/mesh_textures.hpp"
 #include "runtime/io/mesh/texture_levels.hpp"
@@ -181,6 +182,8 @@ GltfTextures::Image GltfTextures::image_of(const GltfValue& texture, bool is_dat
     const GltfValue image = root.item("images", size_t(number));
     try {
         entry->second = read_image(image, is_data);
+    } catch (const ImageDecoderError&) {
+        throw;  // the picture may be whole
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::input) throw;
         mesh.notes.push_back(fmt::format("its {} isn't shown: {}", image.place(), error.what()));

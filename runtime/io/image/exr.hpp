@@ -10,6 +10,7 @@
 
 #include "runtime/image/image.hpp"
 #include "runtime/io/image/image_rows.hpp"
+#include "runtime/io/image_codec/exr_decoder.hpp"
 
 namespace voxelume {
 
@@ -56,25 +57,6 @@ double exr_band_bytes(double row_bytes);
 /// The bytes of the file that `write_exr` writes.
 std::string exr_bytes(const Image& image, const ExrStorage& storage = {},
                       const std::map<std::string, std::string>& others = {});
-
-/// A part of a file with several.
-struct ExrPartHeader {
-    std::string name;
-    std::vector<std::string> channels;  ///< their own names
-    bool is_read = true;                ///< false for what read_exr leaves out
-};
-
-/// The contents of a header, for display to people.
-struct ExrHeader {
-    int width = 0;
-    int height = 0;
-    std::string layout;       ///< "scanline", "tiled", "deep scanline", "deep tiled"
-    std::string compression;  ///< "ZIP"
-    std::map<std::string, std::string> channels;    ///< name -> "half", "float" or "uint"; those
-                                                    ///< that read_exr reads
-    std::map<std::string, std::string> attributes;  ///< text and chromaticities, both as text
-    std::vector<ExrPartHeader> parts;               ///< empty for a file with one
-};
 
 /// True if main memory has room for the channels of a flat file in addition to what the process
 /// holds.

@@ -3,8 +3,15 @@
 
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/io/image/image_format_table.hpp"
+#include "runtime/io/image_codec/image_codec.hpp"
 
 namespace voxelume {
+
+Picture parse_jpeg(std::span<const uint8_t> bytes, const std::filesystem::path& name) {
+    if (decodes_apart())
+        return ask_picture(PictureKind::jpeg, bytes, name, kMaxTexturePixels, [](int, int) {});
+    return decode_jpeg(bytes, name);
+}
 
 Picture parse_picture(std::span<const uint8_t> bytes, const std::filesystem::path& name) {
     const ImageFormatEntry* format = image_format_of(bytes);
@@ -17,9 +24,7 @@ Picture parse_picture(std::span<const uint8_t> bytes, const std::filesystem::pat
 Picture read_picture(const std::filesystem::path& path) {
     const InputFile file(path);
     if (file.size() > 9 * kMaxTexturePixels) file.refuse("is too large for a texture");
-    std::vector<uint8_t> bytes(file.size());
-    file.read(0, bytes.data(), bytes.size());
-    return parse_picture(bytes, path);
+    return parse_picture(file.bytes(), path);
 }
 
 }  // namespace voxelume

@@ -9,9 +9,6 @@
 
 namespace voxelume {
 
-/// The maximum number of pixels of a texture's picture: 8192 x 8192.
-inline constexpr uint64_t kMaxTexturePixels = uint64_t{1} << 26;
-
 /// Decodes a JPEG of grey, YCbCr, RGB, or inks (CMYK, YCCK), which become the colour that they
 /// leave of white light; alpha is 255. With Adobe's marker inks are stored inverted. The rotation
 /// that a camera noted isn't applied, as UVs refer to the stored rows. Throws Error::input, which

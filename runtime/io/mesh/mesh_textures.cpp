@@ -11,6 +11,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/image/picture.hpp"
+#include "runtime/io/image_codec/image_codec.hpp"
 #include "runtime/io/mesh/companion_file.hpp"
 #include "runtime/io/mesh/material_library.hpp"
 #include "runtime/io/mesh/mesh_maps.hpp"
@@ -245,6 +246,8 @@ std::optional<Picture> companion_picture(const fs::path& mesh_file, const std::s
             return std::nullopt;
         }
         return picture;
+    } catch (const ImageDecoderError&) {
+        throw;  // the picture may be whole
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::input) throw;
         mesh.notes.push_back(fmt::format("its texture isn't read: {}", error.what()));

@@ -2,18 +2,15 @@
 #include "runtime/io/mesh_codec/mesh_codec.hpp"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
-#include <cstring>
 #include <iterator>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/helper/helper_program.hpp"
 #include "runtime/base/helper/helper_wire.hpp"
+#include "runtime/base/helper/memory_file.hpp"
 
 namespace voxelume {
 namespace {
@@ -41,35 +38,6 @@ void check(const std::filesystem::path& file, const CodecJob& job) {
                     "damaged",
                     place, job.place, task.decoded_bytes(), job.input.size());
 }
-
-/// A file in memory, for the helper alone.
-class RequestFile {
-  public:
-    RequestFile() : descriptor_(memfd_create("voxelume", MFD_CLOEXEC)) {
-        if (descriptor_ < 0) fail();
-    }
-    ~RequestFile() { close(descriptor_); }
-    RequestFile(const RequestFile&) = delete;
-    RequestFile& operator=(const RequestFile&) = delete;
-
-    int descriptor() const { return descriptor_; }
-    void append(const void* data, size_t size) const {
-        const char* from = static_cast<const char*>(data);
-        while (size > 0) {
-            const ssize_t written = write(descriptor_, from, size);
-            if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) fail();
-            from += written;
-            size -= size_t(written);
-        }
-    }
-
-  private:
-    [[noreturn]] static void fail() {
-        throw Error(ErrorKind::input, "no memory for compressed meshes: {}", std::strerror(errno));
-    }
-    int descriptor_;
-};
 
 CodecArrays receive(WireReceiver& receiver, const CodecTask& task) {
     CodecArrays arrays;
@@ -116,7 +84,7 @@ std::vector<Part> parts_of(std::span<const CodecJob> jobs, uint64_t first_byte) 
 
 std::atomic<bool> decoder_is_allowed = true;
 
-void send(const RequestFile& request, const CodecRequest& header, std::span<const CodecJob> jobs) {
+void send(const MemoryFile& request, const CodecRequest& header, std::span<const CodecJob> jobs) {
     request.append(&header, sizeof header);
     const std::vector<Part> parts = parts_of(jobs, sizeof header + jobs.size() * sizeof(CodecTask));
     for (const CodecJob& job : jobs) {
@@ -130,7 +98,7 @@ void send(const RequestFile& request, const CodecRequest& header, std::span<cons
     for (const Part& part : parts) request.append(part.begin, size_t(part.end - part.begin));
 }
 
-std::vector<CodecArrays> ask(const std::filesystem::path& file, const RequestFile& request,
+std::vector<CodecArrays> ask(const std::filesystem::path& file, const MemoryFile& request,
                              const CodecRequest& header, std::span<const CodecJob> jobs) {
     HelperProcess helper(helper_program(kMeshDecoderName), {VXL_VERSION}, request.descriptor(),
                          2.0 * double(codec_seconds(header)) + 20);
@@ -176,7 +144,7 @@ std::vector<CodecArrays> decode_meshes(const std::filesystem::path& file,
                         SourcePlace(file.string()));
     }
     if (jobs.empty()) return {};
-    const RequestFile request;
+    const MemoryFile request("compressed meshes");
     send(request, header, jobs);
     try {
         return ask(file, request, header, jobs);

@@ -62,17 +62,8 @@ auto ask(const InputFile& file, const std::vector<std::string>& question, const 
     }
 }
 
-std::map<std::string, std::string> receive_texts(WireReceiver& receiver) {
-    std::map<std::string, std::string> texts;
-    for (uint64_t left = receiver.count(kMaxEntries); left > 0; --left) {
-        const std::string key = receiver.text(kMaxText);
-        texts[key] = receiver.text(uint64_t{1} << 26);
-    }
-    return texts;
-}
-
 VdbFileSummary receive_summary(WireReceiver& receiver) {
-    VdbFileSummary summary{receive_texts(receiver), {}};
+    VdbFileSummary summary{receiver.texts(), {}};
     for (uint64_t left = receiver.count(kMaxEntries); left > 0; --left) {
         VdbSummary grid;
         grid.name = receiver.text(kMaxText);
@@ -105,7 +96,7 @@ VdbModel receive_model(WireReceiver& receiver) {
 Volume receive_volume(WireReceiver& receiver, const InputFile& file) {
     Volume volume;
     volume.frame = read_frame_text(receiver.text(kMaxText), file.path().string());
-    volume.attributes = receive_texts(receiver);
+    volume.attributes = receiver.texts();
     volume.indices = receiver.values<uint64_t>(kMaxVolumeVoxels);
     volume.colors = receiver.values<glm::vec3>(kMaxVolumeVoxels);
     volume.opacities = receiver.values<float>(kMaxVolumeVoxels);

@@ -18,16 +18,8 @@
 namespace voxelume::vdb {
 namespace {
 
-void send_texts(WireSender& sender, const std::map<std::string, std::string>& texts) {
-    sender.value(uint64_t{texts.size()});
-    for (const auto& [key, text] : texts) {
-        sender.text(key);
-        sender.text(text);
-    }
-}
-
 void send_summary(WireSender& sender, const VdbFileSummary& summary) {
-    send_texts(sender, summary.metadata);
+    sender.texts(summary.metadata);
     sender.value(uint64_t{summary.grids.size()});
     for (const VdbSummary& grid : summary.grids) {
         sender.text(grid.name);
@@ -53,7 +45,7 @@ void send_model(WireSender& sender, const VdbModel& model, Surface surface) {
 
 void send_volume(WireSender& sender, const Volume& volume) {
     sender.text(write_frame_text(volume.frame));
-    send_texts(sender, volume.attributes);
+    sender.texts(volume.attributes);
     sender.values(volume.indices);
     sender.values(volume.colors);
     sender.values(volume.opacities);

@@ -16,15 +16,10 @@
 
 namespace voxelume::volume_exr {
 
-/// The channels of four-byte floats that are read back, in the order of a sample's values.
-inline constexpr std::array<const char*, 5> kReadChannels = {"R", "G", "B", "A", "depth"};
-/// The channels of floats that are written: those that are read back, then others that only other
-/// programs read.
+/// The channels of floats that are written: kDeepFloatChannels, which are read back, then others
+/// that only other programs read.
 inline constexpr std::array<const char*, 8> kFloatChannels = {"R",     "G", "B",     "A",
                                                               "depth", "Z", "ZBack", "distance"};
-/// The channels of ids: the object's number plus 1 or 0 for none, the VoxelKind, and k.
-inline constexpr std::array<const char*, 3> kIdChannels = {"objectId", "voxelKind", "voxel.K"};
-
 inline constexpr const char* kChecksumKey = "voxelume_checksum";
 inline constexpr size_t kChecksumDigits = 16;
 

@@ -15,6 +15,7 @@
 
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/image/exr_stream.hpp"
+#include "runtime/io/image_codec/deep_exr_decoder.hpp"
 #include "runtime/io/volume/volume_exr.hpp"
 #include "runtime/io/volume/volume_formats.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
@@ -24,7 +25,6 @@ namespace voxelume {
 namespace {
 
 using volume_exr::kFloatChannels;
-using volume_exr::kIdChannels;
 
 /// The listed voxels in the order of pixels, and those of a pixel in the order of k.
 struct PixelOrder {
@@ -76,8 +76,8 @@ class DeepRowWriter {
             Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts_.data()), sizeof counts_[0], 0));
         for (size_t c = 0; c < kFloatChannels.size(); ++c)
             buffer.insert(kFloatChannels[c], slice_of(Imf::FLOAT, float_pointers_[c]));
-        for (size_t c = 0; c < kIdChannels.size(); ++c)
-            buffer.insert(kIdChannels[c], slice_of(Imf::UINT, id_pointers_[c]));
+        for (size_t c = 0; c < kDeepIdChannels.size(); ++c)
+            buffer.insert(kDeepIdChannels[c], slice_of(Imf::UINT, id_pointers_[c]));
         return buffer;
     }
 
@@ -132,9 +132,9 @@ class DeepRowWriter {
     uint64_t pixels_;
     std::vector<uint32_t> counts_;
     std::array<std::vector<float>, kFloatChannels.size()> floats_;
-    std::array<std::vector<uint32_t>, kIdChannels.size()> ids_;
+    std::array<std::vector<uint32_t>, kDeepIdChannels.size()> ids_;
     std::array<std::vector<float*>, kFloatChannels.size()> float_pointers_;
-    std::array<std::vector<uint32_t*>, kIdChannels.size()> id_pointers_;
+    std::array<std::vector<uint32_t*>, kDeepIdChannels.size()> id_pointers_;
 };
 
 Imf::Header make_header(const Volume& volume) {
@@ -144,7 +144,8 @@ Imf::Header make_header(const Volume& volume) {
     Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec. 709
     for (const char* name : kFloatChannels)
         header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    for (const char* name : kIdChannels) header.channels().insert(name, Imf::Channel(Imf::UINT));
+    for (const char* name : kDeepIdChannels)
+        header.channels().insert(name, Imf::Channel(Imf::UINT));
     for (const auto& [name, text] : volume.attributes)
         header.insert(name, Imf::StringAttribute(text));
     header.insert(kFrameKey, Imf::StringAttribute(write_frame_text(volume.frame)));

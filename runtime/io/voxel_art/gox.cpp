@@ -5,7 +5,6 @@
 // up.
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "runtime/io/image/png.hpp"
@@ -19,6 +18,7 @@ namespace {
 constexpr size_t kBlockPixels = 64 * 64;
 constexpr int kFarthestBlock = 1'000'000;  // voxels
 constexpr size_t kMaxBlocks = 1 << 17;
+constexpr size_t kBatch = 4096;  // pictures that are decoded together
 
 using Pixels = std::vector<std::array<uint8_t, 4>>;
 
@@ -43,6 +43,7 @@ class GoxReader {
         // Z up becomes Y up.
         CellBricks bricks({low.x, low.z, -high.y}, {high.x, high.z, -low.y}, file_);
         decoded_.resize(pictures_.size());
+        decode_pictures();
         bricks.fill([&] {
             for (const GoxBlock& block : blocks_) set_block(block, bricks);
         });
@@ -105,21 +106,32 @@ class GoxReader {
         return true;
     }
 
-    /// The voxels of a picture, which is decoded once. Pictures without voxels are left out.
-    const Pixels& pixels_of(size_t number) {
-        if (decoded_[number]) return *decoded_[number];
-        const std::string_view png = pictures_[number];
-        Picture picture = parse_png({reinterpret_cast<const uint8_t*>(png.data()), png.size()},
-                                    path_, kBlockPixels);
-        if (picture.pixels.size() != kBlockPixels)
-            file_.refuse("a block isn't a picture of 64 x 64 pixels");
-        if (std::ranges::all_of(picture.pixels, [](const auto& pixel) { return pixel[3] == 0; }))
-            picture.pixels = {};
-        return decoded_[number].emplace(std::move(picture.pixels));
+    /// Decodes the pictures of visible layers, each once. Pictures without voxels are left out.
+    void decode_pictures() {
+        std::set<size_t> used;
+        for (const GoxBlock& block : blocks_) used.insert(block.picture);
+        const std::vector<size_t> numbers(used.begin(), used.end());
+        for (size_t first = 0; first < numbers.size(); first += kBatch) {
+            std::vector<std::span<const uint8_t>> pngs;
+            pngs.reserve(kBatch);
+            for (size_t i = first; i < std::min(first + kBatch, numbers.size()); ++i) {
+                const std::string_view png = pictures_[numbers[i]];
+                pngs.emplace_back(reinterpret_cast<const uint8_t*>(png.data()), png.size());
+            }
+            std::vector<Picture> pictures = parse_pngs(pngs, path_, kBlockPixels);
+            for (size_t i = 0; i < pictures.size(); ++i)
+                take_pixels(pictures[i].pixels, decoded_[numbers[first + i]]);
+        }
+    }
+
+    void take_pixels(Pixels& from, Pixels& to) const {
+        if (from.size() != kBlockPixels) file_.refuse("a block isn't a picture of 64 x 64 pixels");
+        if (std::ranges::any_of(from, [](const auto& pixel) { return pixel[3] != 0; }))
+            to = std::move(from);
     }
 
     void set_block(const GoxBlock& block, CellBricks& bricks) {
-        const Pixels& pixels = pixels_of(block.picture);
+        const Pixels& pixels = decoded_[block.picture];
         for (size_t i = 0; i < pixels.size(); ++i) {
             const auto& [red, green, blue, alpha] = pixels[i];
             if (alpha == 0) continue;
@@ -134,7 +146,7 @@ class GoxReader {
     const InputFile file_;
     std::string bytes_;
     std::vector<std::string_view> pictures_;
-    std::vector<std::optional<Pixels>> decoded_;  ///< by picture
+    std::vector<Pixels> decoded_;  ///< by picture
     std::vector<GoxBlock> blocks_;
     std::map<std::string, int> others_;
     int layers_ = 0, hidden_ = 0;

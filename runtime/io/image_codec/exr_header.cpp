@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/io/image/exr_header.hpp"
+#include "runtime/io/image_codec/exr_header.hpp"
 
 #include <fmt/format.h>
 
@@ -31,6 +31,18 @@ bool is_flat(exr_storage_t storage) {
     return storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED;
 }
 
+/// Reads a part of the file, or less at its end, for OpenEXR. Returns -1 if that fails.
+int64_t read_at(exr_const_context_t, void* user_data, void* data, uint64_t size, uint64_t position,
+                exr_stream_error_func_ptr_t) try {
+    const auto& file = *static_cast<const InputFile*>(user_data);
+    const uint64_t left = file.size() - std::min(position, file.size());
+    const auto count = size_t(std::min(size, left));
+    file.read(position, data, count);
+    return int64_t(count);
+} catch (const Error&) {
+    return -1;
+}
+
 bool equal(const exr_attr_box2i_t& a, const exr_attr_box2i_t& b) {
     return a.min.x == b.min.x && a.min.y == b.min.y && a.max.x == b.max.x && a.max.y == b.max.y;
 }
@@ -41,11 +53,15 @@ bool is_of_format(std::string_view attribute, bool has_parts) {
     return attribute == "type" || (has_parts && attribute == "name");
 }
 
-ExrHeaderReader::ExrHeaderReader(const InputFile& file, const std::filesystem::path& path)
-    : file_(file) {
+ExrHeaderReader::ExrHeaderReader(const InputFile& file) : file_(file) {
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
     settings.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
-    check(exr_start_read(&context_, path.c_str(), &settings));
+    settings.user_data = const_cast<InputFile*>(&file);
+    settings.read_fn = read_at;
+    settings.size_fn = [](exr_const_context_t, void* of) {
+        return int64_t(static_cast<const InputFile*>(of)->size());
+    };
+    check(exr_start_read(&context_, file.path().c_str(), &settings));
 }
 
 void ExrHeaderReader::check(exr_result_t result) const {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/io/image/exr_header_check.hpp"
+#include "runtime/io/image_codec/exr_header_check.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -64,16 +65,41 @@ bool has_its_size(const std::string& type, uint64_t size) {
     return row == std::end(kSizes) || row->second == size;
 }
 
-/// True if a list of channels, behind which an empty name is, ends where its attribute does.
-bool are_channels_whole(Walk walk, uint64_t size) {
+/// The number of channels in a list, behind which an empty name is. Nothing if the list doesn't end
+/// where its attribute does.
+std::optional<uint64_t> count_channels(Walk walk, uint64_t size) {
     constexpr uint64_t kChannel = 16;  // bytes behind a channel's name
     const uint64_t end = walk.left() - size;
-    while (walk.left() > end) {
-        if (walk.name().empty()) return walk.left() == end;
-        if (walk.left() < end + kChannel) return false;
+    for (uint64_t count = 0; walk.left() > end; ++count) {
+        if (walk.name().empty()) return walk.left() == end ? std::optional(count) : std::nullopt;
+        if (walk.left() < end + kChannel) return std::nullopt;
         walk.skip(kChannel);
     }
-    return false;
+    return std::nullopt;
+}
+
+/// What one part's header declares.
+struct Part {
+    double columns = 0, rows = 0, channels = 0;
+
+    void add_to(ExrExtent& extent) const {
+        constexpr double kMost = 0x1p60;
+        const double row_bytes = 4 * columns * channels;
+        const double bytes = double(extent.pixel_bytes) + row_bytes * rows;
+        extent.pixel_bytes = uint64_t(std::min(bytes, kMost));
+        extent.row_bytes = std::max(extent.row_bytes, uint64_t(std::min(row_bytes, kMost)));
+    }
+};
+
+/// Takes what an attribute says of a part's size.
+void take_size(Walk walk, const std::string& name, const std::string& type, uint64_t size,
+               Part& part) {
+    if (type == "chlist") part.channels += double(count_channels(walk, size).value_or(0));
+    if (name != "dataWindow" || type != "box2i") return;
+    int32_t sides[4] = {};
+    for (int32_t& side : sides) side = int32_t(walk.number());
+    part.columns = std::max(part.columns, double(sides[2]) - sides[0] + 1);
+    part.rows = std::max(part.rows, double(sides[3]) - sides[1] + 1);
 }
 
 /// Checks the length of an attribute's value, and those inside of it if its type has some.
@@ -83,7 +109,7 @@ void check_value(Walk walk, const std::string& name, const std::string& type, ui
     };
     if (!has_its_size(type, size))
         walk.fail(fmt::format("its attribute {} has {} bytes, which is no {}", name, size, type));
-    if (type == "chlist" && !are_channels_whole(walk, size)) fail();
+    if (type == "chlist" && !count_channels(walk, size)) fail();
     if (type == "preview") {
         const uint64_t width = size < 8 ? 0 : walk.number(), height = size < 8 ? 0 : walk.number();
         if (size < 8 || width > size || height > size || size != 8 + 4 * width * height) fail();
@@ -98,9 +124,10 @@ void check_value(Walk walk, const std::string& name, const std::string& type, ui
 
 /// Walks through the attributes of one part. Returns false if there are none: the list of parts
 /// ends so.
-bool walk_part(Walk& walk) {
+bool walk_part(Walk& walk, ExrExtent& extent) {
     std::string name = walk.name();
     if (name.empty()) return false;
+    Part part;
     for (; !name.empty(); name = walk.name()) {
         const std::string type = walk.name();
         const uint64_t size = walk.number();
@@ -108,21 +135,25 @@ bool walk_part(Walk& walk) {
             walk.fail(fmt::format("its attribute {} declares {} bytes, and {} follow", name, size,
                                   walk.left()));
         check_value(walk, name, type, size);
+        take_size(walk, name, type, size, part);
         walk.skip(size);
     }
+    part.add_to(extent);
     return true;
 }
 
 }  // namespace
 
-void check_exr_header(const InputFile& file) {
+ExrExtent check_exr_header(const InputFile& file) {
     Walk walk(file);
     if (file.size() < 8 || walk.number() != kMagic)
         walk.fail("it doesn't begin as OpenEXR files do");
     const bool has_parts = walk.number() & kMultipart;
-    if (!walk_part(walk)) walk.fail("its header is empty");
-    while (has_parts && walk_part(walk)) {
+    ExrExtent extent;
+    if (!walk_part(walk, extent)) walk.fail("its header is empty");
+    while (has_parts && walk_part(walk, extent)) {
     }
+    return extent;
 }
 
 }  // namespace voxelume

@@ -6,11 +6,17 @@
 
 namespace voxelume {
 
+/// What a file's headers declare; 2^60 bytes for more.
+struct ExrExtent {
+    uint64_t pixel_bytes = 0;  ///< of all parts, by four bytes for each number
+    uint64_t row_bytes = 0;    ///< of the longest row of a part
+};
+
 /// Walks through the headers of all parts. OpenEXR takes memory for an attribute of any length that
 /// is declared, up to 2 GB, and clears it, before it reads.
 ///
 /// Throws Error::input for a file that doesn't begin as an OpenEXR file does, or with an attribute
 /// longer than the file.
-void check_exr_header(const InputFile& file);
+ExrExtent check_exr_header(const InputFile& file);
 
 }  // namespace voxelume

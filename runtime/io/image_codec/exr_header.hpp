@@ -4,13 +4,12 @@
 
 #include <openexr.h>
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "runtime/base/files/input_file.hpp"
-#include "runtime/io/image/exr.hpp"
+#include "runtime/io/image_codec/exr_decoder.hpp"
 
 namespace voxelume {
 
@@ -31,7 +30,7 @@ bool is_of_format(std::string_view attribute, bool has_parts);
 class ExrHeaderReader {
   public:
     /// `file` was checked by check_exr_header. Throws Error::input, as its members do.
-    ExrHeaderReader(const InputFile& file, const std::filesystem::path& path);
+    explicit ExrHeaderReader(const InputFile& file);
     ~ExrHeaderReader() { exr_finish(&context_); }
     ExrHeaderReader(const ExrHeaderReader&) = delete;
     ExrHeaderReader& operator=(const ExrHeaderReader&) = delete;

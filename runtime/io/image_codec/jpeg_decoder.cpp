@@ -8,7 +8,8 @@
 #include <string_view>
 
 #include "runtime/base/error.hpp"
-#include "runtime/io/image/picture.hpp"
+#include "runtime/io/image_codec/picture_decoder.hpp"
+#include "runtime/io/image_codec/picture_size.hpp"
 
 namespace voxelume {
 namespace {
@@ -19,24 +20,12 @@ struct CloseDecoder {
 
 /// True if a JPEG has the marker of Adobe's programs, which store inks inverted.
 bool has_adobe_marker(std::span<const uint8_t> bytes) {
-    constexpr uint8_t kApp14 = 0xEE, kStartOfScan = 0xDA;
+    constexpr uint8_t kApp14 = 0xEE;
     constexpr std::string_view kName = "Adobe";
-    // Segments are FF, a kind, and their length with its own two bytes.
-    for (size_t at = 2; at + 4 <= bytes.size() && bytes[at] == 0xFF;) {
-        const uint8_t kind = bytes[at + 1];
-        if (kind == 0xFF) {  // a fill byte
-            ++at;
-            continue;
-        }
-        if (kind == kStartOfScan) return false;
-        const size_t length = size_t(bytes[at + 2]) << 8 | bytes[at + 3];
-        const bool is_whole = length >= 2 + kName.size() && at + 2 + length <= bytes.size();
-        if (kind == kApp14 && is_whole &&
-            std::equal(kName.begin(), kName.end(), bytes.begin() + long(at) + 4))
-            return true;
-        at += 2 + length;
-    }
-    return false;
+    return any_jpeg_segment(bytes, [&](uint8_t kind, std::span<const uint8_t> content) {
+        return kind == kApp14 && content.size() >= kName.size() &&
+               std::equal(kName.begin(), kName.end(), content.begin());
+    });
 }
 
 /// Replaces inks by the colour that white light has after cyan, magenta and yellow over black.
@@ -51,7 +40,7 @@ void light_of_inks(Picture& picture, bool is_inverted) {
 
 }  // namespace
 
-Picture parse_jpeg(std::span<const uint8_t> bytes, const std::filesystem::path& name) {
+Picture decode_jpeg(std::span<const uint8_t> bytes, const std::filesystem::path& name) {
     const std::unique_ptr<void, CloseDecoder> decoder(tjInitDecompress());
     const auto refuse = [&](const std::string& reason) {
         throw Error(ErrorKind::input, "{}: {}", SourcePlace(name.string()), reason);
