@@ -54,8 +54,8 @@ const char* fault_of(FileIntegrity found, const std::string& ending) {
                    : "is damaged: its bytes aren't those that were written";
     return is_one_of(kWithoutPlace)
                ? "can't be verified: its format has no place for a checksum"
-               : "has no checksum; those files have one that `render` writes, volumetric images "
-                 "made of them, and voxels in .vxm, .vdb and .nrrd";
+               : "has no checksum; files that `render` writes have one, volumetric images made of "
+                 "them, and voxels in .vxm, .vdb and .nrrd";
 }
 
 void check_integrity(const std::string& path) {

@@ -93,7 +93,7 @@ v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, size_t f
                             api::array_of(planned.scene.world.voxel_size)});
     result.largest_buffer_bytes = largest.bytes;
     result.host_bytes = plan.host_bytes;
-    result.process_bytes = process_bytes(plan, result.max_bytes, device);
+    result.process_bytes = process_bytes(planned.scene, plan, result.max_bytes, device);
     for (const Model& model : planned.scene.models)
         if (!model.surface_reason.empty())
             result.surfaces.push_back(

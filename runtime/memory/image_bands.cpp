@@ -40,12 +40,22 @@ double writing_bytes(const Scene& scene) {
            exr_band_bytes(row);
 }
 
+}  // namespace
+
+double process_bytes(const Scene& scene, const ScenePlan& plan, double device_bytes,
+                     const DeviceInfo& device) {
+    return rendering_bytes(plan, device_bytes, device) +
+           (scene.render.shows_image ? writing_bytes(scene) : 0);
+}
+
+namespace {
+
 /// True if the expected memory of a run is available.
 bool fits_surely(const Scene& scene, const ScenePlan& plan, size_t frames,
                  const DeviceInfo& device) {
     const double memory = double(device.memory);
     const double max_bytes = plan.run_bytes(worlds_of(scene, frames), memory);
-    const double host = process_bytes(plan, max_bytes, device) + writing_bytes(scene);
+    const double host = process_bytes(scene, plan, max_bytes, device);
     return max_bytes <= memory && host <= double(main_memory()) &&
            !is_refused({1, scene, plan}, device);
 }

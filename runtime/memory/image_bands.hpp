@@ -18,6 +18,11 @@ struct ImageBands {
     bool are_one() const { return count == 1; }
 };
 
+/// The bytes of main memory of the whole process, where its device takes `device_bytes`, with what
+/// an image takes while it is written.
+double process_bytes(const Scene& scene, const ScenePlan& plan, double device_bytes,
+                     const DeviceInfo& device);
+
 /// The scene whose image is band `band` of the scene's image, from 0 on.
 Scene band_of(const Scene& scene, const ImageBands& bands, int band);
 

@@ -89,7 +89,7 @@ double ScenePlan::peak_bytes() const {
     return std::max({voxelize_bytes, place_bytes, index_bytes, shown_bytes});
 }
 
-double process_bytes(const ScenePlan& plan, double device_bytes, const DeviceInfo& device) {
+double rendering_bytes(const ScenePlan& plan, double device_bytes, const DeviceInfo& device) {
     return kDriverBytes + plan.host_bytes + (device.kind == DeviceKind::cpu ? device_bytes : 0.0);
 }
 

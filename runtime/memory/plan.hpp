@@ -26,9 +26,9 @@ struct ScenePlan;
 /// features, takes 0.28 GB.
 inline constexpr double kDriverBytes = 3e8;
 
-/// The bytes of main memory of the whole process, whose device takes `device_bytes`: a CPU's are
-/// main memory, too.
-double process_bytes(const ScenePlan& plan, double device_bytes, const DeviceInfo& device);
+/// The bytes of main memory of the process until files are written, where its device takes
+/// `device_bytes`: a CPU's are main memory, too.
+double rendering_bytes(const ScenePlan& plan, double device_bytes, const DeviceInfo& device);
 
 struct ScenePlan {
     std::vector<GridPlan> grids;

@@ -193,7 +193,7 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
                      fmt::format("{} on \"{}\", which has {}", bytes_text(peak), device.name,
                                  bytes_text(memory)),
                      surface_factor(peak, memory));
-    const double host = process_bytes(plan, peak, device);
+    const double host = rendering_bytes(plan, peak, device);
     const auto there = double(main_memory());
     if (kDriverBytes > there)
         throw Error(ErrorKind::limit,

@@ -193,16 +193,19 @@ TEST_F(CliFaultsTest, AFallbackTakesOverWithTheSameBits) {
     EXPECT_THAT(wrong.err, testing::Not(testing::HasSubstr("takes over")));
 }
 
-/// Batches of 131,072 rays have buffers of 3 MB; the world's are smaller than 0.6 MB.
+/// Batches of 131,072 rays have buffers of 3 MB; others are smaller than 1 MB.
 TEST_F(CliFaultsTest, MemoryThatIsShortIsEnoughForSmallerBatches) {
-    for (const char* output : {"-o out/a.exr", "--volume out/v.nrrd"}) {
+    write_scene([](Json& scene) { scene["observer"]["display"]["layout"] = "lattice"; });
+    for (const char* output : {"-o out/a.exr --size 80x60 --samples 32", "--volume out/v.nrrd"}) {
         command_ = fmt::format("render scene.json --no-cache {}", output);
         remove_files();
         ASSERT_EQ(render("").exit_code, 0);
         const std::map<std::string, std::string> expected = files();
         remove_files();
-        const ProgramResult smaller = render("VXL_FAULT=clCreateBuffer:1000000:large");
+        const ProgramResult smaller =
+            render("VXL_FAULT_COUNTS=counts VXL_FAULT=clCreateBuffer:1000000:large");
         EXPECT_EQ(smaller.exit_code, 0) << smaller.err;
+        EXPECT_THAT(bytes_of(folder / "counts"), testing::HasSubstr("\nlarge "));
         EXPECT_TRUE(files() == expected);
         remove_files();
         const ProgramResult none =

@@ -4,6 +4,9 @@
 #include <spawn.h>
 #include <sys/resource.h>
 
+#include <cstring>
+#include <sstream>
+
 #include "runtime/base/sanitizers.hpp"
 #include "tests/cli/scene_program.hpp"
 #include "tests/support/exhaustive.hpp"
@@ -29,6 +32,27 @@ class CliMemoryTest : public SceneProgramTest {
         EXPECT_EQ(wait4(child, &status, 0, &used), child);
         EXPECT_EQ(status, 0) << line;
         return 1024.0 * double(used.ru_maxrss);
+    }
+
+    /// Renders the scene as its options say, and holds the process against what the plan of such a
+    /// run promises.
+    void expect_promise_of_run_holds(const std::string& scene, const std::string& options) const {
+        const std::string line =
+            fmt::format("render -q --no-cache --overwrite always -o '{}' '{}'{}",
+                        (folder / "a.exr").string(), scene, options);
+        const ProgramResult planned = run(line + " --dry-run");
+        ASSERT_EQ(planned.exit_code, 0) << planned.err;
+        const size_t row = planned.out.find("whole process");
+        ASSERT_NE(row, std::string::npos) << planned.out;
+        std::istringstream words(planned.out.substr(row + std::strlen("whole process")));
+        double promised = 0;
+        std::string unit;
+        words >> promised >> unit;
+        promised *= unit == "GB" ? 1e9 : 1e6;
+        const double peak = peak_of(line);
+        EXPECT_LE(peak, promised);
+        EXPECT_GE(peak, promised / 4);
+        fmt::print("{}: {:.0f} of {:.0f} MB\n", scene, peak / 1e6, promised / 1e6);
     }
 
     /// Renders the scene as its options say, and holds the process against what `check` promises.
@@ -78,6 +102,10 @@ TEST_F(CliMemoryTest, ProcessesTakeNoMoreThanCheckPromises) {
     const std::filesystem::path scenes = VXL_SOURCE_DIR "/scenes";
     expect_promise_holds(scenes / "cubes.json", "");
     expect_promise_holds(scenes / "whitted.json", " --size 1600x1200");
+    expect_promise_of_run_holds(scenes / "cubes.json",
+                                " --size 1600x1200 --channels RGBA,Z,distance,P,N,objectId,"
+                                "materialId,CryptoObject,CryptoMaterial,albedo,direct,indirect,"
+                                "shadow,lights,samples");
     if (!is_exhaustive()) return;
     int tried = 2;
     for (const auto& entry : std::filesystem::directory_iterator(scenes)) {

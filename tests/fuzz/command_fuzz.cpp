@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A libFuzzer target: any words after a command, one a line, are its options or are refused with a
 // sentence. Nothing is done that the command says. An input with a "#" in front is a file of
-// settings.
+// settings. Built as `shard`, its inputs are manifests of a run's parts.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 
+#include "cli/output/shard_manifest.hpp"
 #include "cli/shared/commands.hpp"
 #include "cli/shared/settings.hpp"
 #include "runtime/voxelume.hpp"
@@ -43,9 +44,23 @@ void check_settings(std::span<const uint8_t> bytes) {
     }
 }
 
+void check_manifest(std::span<const uint8_t> bytes) {
+    static const std::filesystem::path file = fuzz_file(VXL_FUZZ_NAME);
+    write_bytes(file, bytes);
+    try {
+        cli::read_manifest(file);
+    } catch (const Error& error) {
+        check_sentence(error.what(), file.string());
+    }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    if (std::string_view(VXL_FUZZ_NAME).ends_with(".shard")) {
+        check_manifest({data, size});
+        return 0;
+    }
     if (size == 0) return 0;
     if (data[0] == '#') {
         check_settings({data, size});

@@ -42,6 +42,10 @@ def made_by(program):
                 if kind == "raw":
                     content = pair((folder / "fuzz.json").read_bytes(), content)
                 seeds.setdefault(kind, []).append(content)
+        (folder / "scene.json").write_text(SCENE % "rays")
+        run("render", "-q", "scene.json", "-o", "b.png", "--shard", "1/2")
+        seeds["shard"] = [file.read_bytes() for file in folder.glob("*.shard")]
+        seeds["stamp"] = [(folder / name).read_bytes() for name in ("a.exr", "a.nrrd")]
         (folder / "a.ply").write_bytes(PLYS[0])
         for surface in "cubes", "smooth", "exact":
             run("voxelize", "-q", "a.ply", "--resolution", "4", "--surface", surface, "-o", "a.vxm")

@@ -245,6 +245,25 @@ MODELS = [
                         "triangles": ("f", [1, 1, 1, 7, 1, 1, 1, 7, 1])}),
 ]
 
+# Pictures of 5 x 3 pixels: baseline and grey, progressive and coloured.
+JPEGS = [base64.b64decode(text) for text in (
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDACgcHiMeGSgjISMtKygwPGRBPDc3PHtYXUlkkYCZlo+AjIqgtObDoKrarY"
+    "qMyP/L2u71////m8H////6/+b9//j/wAALCAADAAUBAREA/8QAHwAAAQUBAQEBAQEAAAAAAAAAAAECAwQFBgcICQoL"
+    "/8QAtRAAAgEDAwIEAwUFBAQAAAF9AQIDAAQRBRIhMUEGE1FhByJxFDKBkaEII0KxwRVS0fAkM2JyggkKFhcYGRolJi"
+    "coKSo0NTY3ODk6Q0RFRkdISUpTVFVWV1hZWmNkZWZnaGlqc3R1dnd4eXqDhIWGh4iJipKTlJWWl5iZmqKjpKWmp6ip"
+    "qrKztLW2t7i5usLDxMXGx8jJytLT1NXW19jZ2uHi4+Tl5ufo6erx8vP09fb3+Pn6/9oACAEBAAA/AFkUIwCAKCoOB+"
+    "Nf/9k=",
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDACgcHiMeGSgjISMtKygwPGRBPDc3PHtYXUlkkYCZlo+AjIqgtObDoKrarY"
+    "qMyP/L2u71////m8H////6/+b9//j/2wBDASstLTw1PHZBQXb4pYyl+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4"
+    "+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj/wgARCAADAAUDAREAAhEBAxEB/8QAFAABAAAAAAAAAAAAAAAAAAAAAP/EAB"
+    "UBAQEAAAAAAAAAAAAAAAAAAAEC/9oADAMBAAIQAxAAAAE3/8QAFRABAQAAAAAAAAAAAAAAAAAAAAH/2gAIAQEAAQUC"
+    "r//EABcRAAMBAAAAAAAAAAAAAAAAAAABAhH/2gAIAQMBAT8BmVh//8QAFhEAAwAAAAAAAAAAAAAAAAAAAAER/9oACA"
+    "ECAQE/Aaz/xAAUEAEAAAAAAAAAAAAAAAAAAAAA/9oACAEBAAY/An//xAAXEAADAQAAAAAAAAAAAAAAAAAAASER/9oA"
+    "CAEBAAE/IUxyQ//aAAwDAQACAAMAAAAQ/wD/xAAWEQEBAQAAAAAAAAAAAAAAAAABACH/2gAIAQMBAT8Qfov/xAAXEQ"
+    "ADAQAAAAAAAAAAAAAAAAAAAREx/9oACAECAQE/ELaz/8QAFxABAAMAAAAAAAAAAAAAAAAAAQARgf/aAAgBAQABPxAC"
+    "CBDRs//Z",
+)]
+
 SEEDS = {
     "obj": [OBJ, OBJ_DRAWING], "ply": PLYS, "stl": STLS, "glb": [glb(TRIANGLE)],
     "gltf": [gltf("data:application/octet-stream;base64," +
@@ -257,6 +276,7 @@ SEEDS = {
     "draco": [bytes.fromhex(text) for text in DRACO],
     "meshopt": [bytes.fromhex(text) for text in MESHOPT],
     "nhdr": [nhdr()], "1.png": [png(5, 3)], "hdr": [hdr(FLAT), hdr(PLANES)],
+    "jpg": JPEGS, "packed": [b"3 ab/cd/program.bc\nabc0 ab/cd/kernel/0/kernel.so\n"],
     "vxm": MODELS,
     "schem": [schem(), schematic(), litematic(), gzip.compress(schem(), mtime=0)],
 }

@@ -149,14 +149,24 @@ TEST(RayArrays, ThatDoNotFitAskForFewerRays) {
     scene.render.samples = 4;
     EXPECT_THAT(refusal(), testing::EndsWith(": render a smaller one, or with fewer samples a "
                                              "pixel, or with less depth"));
-    // The arrays' allocation reports what the plan can't foresee.
-    const Device device = device_with_memory(24);
+}
+
+/// The plan can't foresee how many rays are followed. Their arrays' allocation tells, and fewer
+/// rays pass through the stages together.
+TEST(RayArrays, ThatDoNotFitBecomeSmallerWithTheSameBits) {
+    const Scene scene =
+        scene_of({.wall = kMirror, .lights = kPointLight, .depth = 16, .size = {256, 128}});
     RenderReport report;
-    scene = scene_of({.wall = kMirror, .lights = kPointLight, .depth = 16, .size = {256, 128}});
+    const uint64_t expected = oracle::image_hash(render(test_device(), scene, report));
+    const Device device = device_with_memory(24);
+    AssetStore meshes;
     EXPECT_NO_THROW(check_memory(scene, plan_scene(scene, meshes), device.info()));
-    EXPECT_THAT(error_of([&] { render(device, scene, report); }).what(),
-                testing::AllOf(testing::StartsWith("an image of 256x128 pixels: the "),
-                               testing::HasSubstr(" buffer needs "),
+    const uint32_t rays = device.batch_rays();
+    EXPECT_EQ(oracle::image_hash(render(device, scene, report)), expected);
+    EXPECT_LT(device.batch_rays(), rays);
+    EXPECT_GE(device.batch_rays(), 4096u);
+    EXPECT_THAT(error_of([&] { allocate_batch(device, Features(), 1u << 20); }).what(),
+                testing::AllOf(testing::StartsWith("the "), testing::HasSubstr(" buffer needs "),
                                testing::EndsWith(": render a smaller image, or with fewer samples "
                                                  "a pixel or less depth")));
 }

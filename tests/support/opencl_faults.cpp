@@ -9,7 +9,7 @@
 // memory. VXL_FAULT_COUNTS=FILE writes the number of calls of each function to FILE when a program
 // that made calls ends, VXL_FAULT_SITES=FILE the numbers of the first calls from each site (a site
 // is a stack of calls), and VXL_FAULT_LEFT=FILE the numbers of objects that the program made and
-// didn't release.
+// didn't release; in the counts, `large` is the number of buffers that were too large.
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_USE_DEPRECATED_OPENCL_1_1_APIS
 #include <CL/cl.h>
@@ -70,8 +70,11 @@ class Calls {
         left_[kind] += references;
     }
 
-    bool is_too_large(size_t bytes) const {
-        return fault_.is_large && bytes > size_t(fault_.number);
+    bool is_too_large(size_t bytes) {
+        if (!fault_.is_large || bytes <= size_t(fault_.number)) return false;
+        const std::lock_guard lock(mutex_);
+        ++counts_["large"];
+        return true;
     }
 
     /// Counts a call. Returns the status with which it should fail, if any.

@@ -97,7 +97,7 @@ void add_cache_warning(const std::filesystem::path& folder, const std::string& r
 }
 
 void add_cache_warnings(const ModelCache& cache, std::vector<Warning>& warnings) {
-    if (!cache.is_open()) return;
+    if (!cache.is_open()) return;  // who wants none needn't hear of it
     const std::string models = cache.refusal();
     const DiskCache programs(programs_folder(), 0);
     const std::string refusal = programs.refusal();

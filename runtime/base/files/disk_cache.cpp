@@ -91,10 +91,11 @@ bool is_temporary(const std::string& name) {
 /// The reason why no file can be made in a folder; empty if one can. Leaves nothing behind.
 /// Permissions alone don't tell: root has all of them for /proc, where nobody can make a file.
 std::string refusal_of_new_entries(const fs::path& folder) {
-    constexpr uintmax_t kRoom = 4u << 20;  // bytes of some scenes' kernels
+    constexpr uintmax_t kRoom = 1u << 18;  // bytes that the kernels of no scene fit in
     std::error_code error;
     const fs::space_info space = fs::space(folder, error);
-    if (!error && space.available < kRoom)
+    const bool has_size = !error && space.capacity > 0;  // some file systems don't tell
+    if (has_size && space.available < kRoom)
         return fmt::format("its disk has only {:.1f} MB left", double(space.available) / 1e6);
     const int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
     if (file >= 0) {

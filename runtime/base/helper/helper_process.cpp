@@ -171,6 +171,8 @@ void HelperProcess::fail_without_answer() {
     const int signal = WTERMSIG(status);
     if (signal == SIGXCPU)
         throw HelperFailure(Cause::too_long, "reading it took too much computing");
+    if (signal == SIGKILL)
+        throw HelperFailure(Cause::killed, "its reader was killed, perhaps for want of memory");
     throw HelperFailure(Cause::died, fmt::format("its reader ended: {}", strsignal(signal)));
 }
 

@@ -21,7 +21,8 @@ class HelperFailure : public std::runtime_error {
   public:
     enum class Cause {
         missing,   ///< the program couldn't be started, or is another one than expected
-        died,      ///< a signal ended it, or it answered what can't be
+        died,      ///< a fault ended it, or it answered what can't be
+        killed,    ///< someone ended it, or the system, which lacked memory
         too_long,  ///< the helper met its limit of time
     };
 

@@ -19,8 +19,8 @@ float float_of_half(uint16_t half) {
     // power of 2 adds that, and gives subnormal numbers their exponent.
     const uint32_t bits = uint32_t(half & 0x7fff) << 13;
     const bool is_finite = (half & 0x7c00) != 0x7c00;
-    const float magnitude = is_finite ? std::bit_cast<float>(bits) * 0x1p112f
-                                      : std::bit_cast<float>(bits | 0x7f800000);
+    const float magnitude =
+        is_finite ? std::bit_cast<float>(bits) * 0x1p112f : std::bit_cast<float>(bits | 0x7f800000);
     return (half & 0x8000) != 0 ? -magnitude : magnitude;
 }
 

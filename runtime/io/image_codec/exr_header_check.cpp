@@ -24,6 +24,12 @@ class Walk {
         position_ += sizeof value;
         return value;
     }
+    uint8_t byte() {
+        uint8_t value = 0;
+        file_.read(position_, &value, sizeof value);
+        position_ += sizeof value;
+        return value;
+    }
     std::string name() {
         std::string text(std::min(kLongestName, file_.size() - position_), '\0');
         file_.read(position_, text.data(), text.size());
@@ -81,6 +87,8 @@ std::optional<uint64_t> count_channels(Walk walk, uint64_t size) {
 /// What one part's header declares.
 struct Part {
     double columns = 0, rows = 0, channels = 0;
+    double tile_pixels = 0;     // 0: it has no tiles
+    double rows_at_once = 256;  // by its compression
 
     void add_to(ExrExtent& extent) const {
         constexpr double kMost = 0x1p60;
@@ -88,13 +96,28 @@ struct Part {
         const double bytes = double(extent.pixel_bytes) + row_bytes * rows;
         extent.pixel_bytes = uint64_t(std::min(bytes, kMost));
         extent.row_bytes = std::max(extent.row_bytes, uint64_t(std::min(row_bytes, kMost)));
+        const double block =
+            tile_pixels > 0 ? 4 * tile_pixels * channels : row_bytes * rows_at_once;
+        extent.block_bytes = std::max(extent.block_bytes, uint64_t(std::min(block, kMost)));
     }
 };
+
+/// The numbers of rows that OpenEXR's compressions take at once: none, RLE, ZIPS, ZIP, PIZ, PXR24,
+/// B44, B44A, DWAA and DWAB.
+constexpr double kRowsAtOnce[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 
 /// Takes what an attribute says of a part's size.
 void take_size(Walk walk, const std::string& name, const std::string& type, uint64_t size,
                Part& part) {
     if (type == "chlist") part.channels += double(count_channels(walk, size).value_or(0));
+    if (type == "tiledesc") {
+        const double width = walk.number();
+        part.tile_pixels = width * double(walk.number());
+    }
+    if (type == "compression") {
+        const uint8_t which = walk.byte();
+        if (which < std::size(kRowsAtOnce)) part.rows_at_once = kRowsAtOnce[which];
+    }
     if (name != "dataWindow" || type != "box2i") return;
     int32_t sides[4] = {};
     for (int32_t& side : sides) side = int32_t(walk.number());

@@ -10,6 +10,7 @@ namespace voxelume {
 struct ExrExtent {
     uint64_t pixel_bytes = 0;  ///< of all parts, by four bytes for each number
     uint64_t row_bytes = 0;    ///< of the longest row of a part
+    uint64_t block_bytes = 0;  ///< of the largest piece that is decoded at once: a tile, or rows
 };
 
 /// Walks through the headers of all parts. OpenEXR takes memory for an attribute of any length that

@@ -35,13 +35,16 @@ ExrHeader receive_header(WireReceiver& receiver) {
     return header;
 }
 
-/// Receives some rows of one of the header's channels, and returns how many.
-uint64_t receive_rows(WireReceiver& receiver, const ExrHeader& header, ExrSink& sink) {
+/// Receives the next rows of one of the header's channels, and returns how many. `next` has the
+/// number of each channel's next row.
+uint64_t receive_rows(WireReceiver& receiver, const ExrHeader& header, std::vector<int>& next,
+                      ExrSink& sink) {
     const auto channel = receiver.value<uint32_t>();
     const auto first = receiver.value<int32_t>(), count = receiver.value<int32_t>();
-    if (channel >= header.channels.size() || first < 0 || count <= 0 || first >= header.height ||
+    if (channel >= next.size() || first != next[channel] || count <= 0 ||
         count > header.height - first)
         WireReceiver::fail();
+    next[channel] += count;
     const std::string& name = std::next(header.channels.begin(), channel)->first;
     auto* const values = static_cast<uint32_t*>(sink.room(name, first, count));
     receiver.fill(std::span(values, size_t(header.width) * size_t(count)));
@@ -67,8 +70,9 @@ Image receive_image(const InputFile& file, ImageQuestion& asked, ExrSink& sink) 
     check_exr_size(file, header);
     sink.begin(header);
     uint64_t left = header.channels.size() * uint64_t(header.height);
+    std::vector<int> next(header.channels.size());
     for (ImageAnswer answer = asked.next(); answer == ImageAnswer::rows; answer = asked.next()) {
-        const uint64_t count = receive_rows(asked.receiver(), header, sink);
+        const uint64_t count = receive_rows(asked.receiver(), header, next, sink);
         if (count > left) WireReceiver::fail();
         left -= count;
         if (left == 0) break;
@@ -105,8 +109,9 @@ ExrHeader ask_exr_header(const InputFile& file) {
 }
 
 Image ask_exr(const InputFile& file, ExrSink& sink) {
-    const uint64_t threads = thread_count();
-    const HelperLimits limits = exr_limits(file.size(), check_exr_header(file), threads);
+    const ExrExtent extent = check_exr_header(file);
+    const uint64_t threads = exr_threads(file.size(), extent, thread_count());
+    const HelperLimits limits = exr_limits(file.size(), extent, threads);
     return ask_image(file.path(), file.descriptor(), {"exr", std::to_string(threads)}, limits,
                      [&](ImageQuestion& asked) { return receive_image(file, asked, sink); });
 }

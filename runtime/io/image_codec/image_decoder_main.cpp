@@ -4,6 +4,7 @@
 #include <ImfThreading.h>
 #include <fmt/format.h>
 #include <malloc.h>
+#include <pthread.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -227,6 +228,16 @@ void refuse(WireSender& sender, ErrorKind kind, const std::string& sentence) {
     sender.text(sentence);
 }
 
+/// Threads have stacks as large as the user's limit for stacks, which may take all of the address
+/// space.
+void limit_stacks() {
+    pthread_attr_t attributes;
+    if (pthread_attr_init(&attributes) != 0) return;
+    if (pthread_attr_setstacksize(&attributes, size_t{8} << 20) == 0)
+        pthread_setattr_default_np(&attributes);
+    pthread_attr_destroy(&attributes);
+}
+
 /// Answers the question in the arguments and ends the process. Returns an exit code if it is
 /// another version's, or if the limits can't be set.
 int serve(int count, char** arguments) {
@@ -238,6 +249,7 @@ int serve(int count, char** arguments) {
         std::vector<uint8_t> bytes;
         if (!words.is_of_exr()) bytes = file.bytes();
         mallopt(M_ARENA_MAX, 2);  // one for each thread would take all of the address space
+        limit_stacks();
         if (!limit_helper(limits_for(words, file, bytes))) return 3;
         forbid_system_calls();
         if (words.is_of_exr()) Imf::setGlobalThreadCount(int(words.number(0)));
@@ -246,7 +258,8 @@ int serve(int count, char** arguments) {
         refuse(sender, error.kind(), error.what());
     } catch (const std::bad_alloc&) {
         refuse(sender, ErrorKind::input,
-               fmt::format("{}: decoding it takes more memory than it declares; it is damaged",
+               fmt::format("{}: decoding it takes more memory than what it declares should take; "
+                           "it is damaged or unusual",
                            arguments[2]));
     } catch (const std::exception& error) {
         refuse(sender, ErrorKind::input,

@@ -47,7 +47,7 @@ ImageAnswer ImageQuestion::next() {
 void fail_to_ask(const std::filesystem::path& name, const HelperFailure& failure) {
     using Cause = HelperFailure::Cause;
     const SourcePlace place(name.string());
-    if (failure.cause() == Cause::missing)
+    if (failure.cause() == Cause::missing || failure.cause() == Cause::killed)
         throw ImageDecoderError(ErrorKind::input, "{}: can't be read: {}", place, failure.what());
     throw ImageDecoderError(
         ErrorKind::input, "{}: can't be decoded: {}, so it is {}; use another copy of it", place,

@@ -31,9 +31,31 @@ inline HelperLimits image_limits(uint64_t file_bytes, uint64_t decoded_bytes, ui
 /// header beyond it is false.
 inline constexpr uint64_t kMaxExrRatio = 4 * 4096;
 
+/// The bytes of a block that is decoded at once. It may be larger than the image: a tile is.
+inline uint64_t exr_block_bytes(uint64_t file_bytes, const ExrExtent& extent) {
+    constexpr uint64_t kSmall = 1 << 26, kLarge = 1 << 30;
+    return std::min({extent.block_bytes, std::max(kMaxExrRatio * file_bytes, kSmall), kLarge});
+}
+
+/// OpenEXR makes two blocks for each thread, and one without any. Their compressors make up to
+/// three copies of each.
+inline uint64_t exr_blocks_bytes(uint64_t file_bytes, const ExrExtent& extent, uint64_t threads) {
+    return (2 * threads + 1) * 4 * exr_block_bytes(file_bytes, extent);
+}
+
+/// The number of threads, of those that are `wanted`, whose blocks take less than a gigabyte.
+inline uint64_t exr_threads(uint64_t file_bytes, const ExrExtent& extent, uint64_t wanted) {
+    constexpr uint64_t kBlocks = 1 << 30;
+    uint64_t threads = wanted;
+    while (threads > 0 && exr_blocks_bytes(file_bytes, extent, threads) > kBlocks) --threads;
+    return threads;
+}
+
 inline HelperLimits exr_limits(uint64_t file_bytes, const ExrExtent& extent, uint64_t threads) {
-    return image_limits(file_bytes, std::min(extent.pixel_bytes, kMaxExrRatio * file_bytes),
-                        threads);
+    HelperLimits limits =
+        image_limits(file_bytes, std::min(extent.pixel_bytes, kMaxExrRatio * file_bytes), threads);
+    const uint64_t blocks = exr_blocks_bytes(file_bytes, extent, threads);
+    return {limits.memory_bytes + blocks, limits.max_memory_bytes + blocks, limits.seconds};
 }
 
 /// Deep files are decoded row by row, to any size; a sample takes four bytes in each channel.

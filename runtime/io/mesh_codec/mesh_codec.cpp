@@ -149,7 +149,8 @@ std::vector<CodecArrays> decode_meshes(const std::filesystem::path& file,
     try {
         return ask(file, request, header, jobs);
     } catch (const HelperFailure& failure) {
-        if (failure.cause() == HelperFailure::Cause::missing)
+        if (failure.cause() == HelperFailure::Cause::missing ||
+            failure.cause() == HelperFailure::Cause::killed)
             throw Error(ErrorKind::input, "{}: its compressed meshes can't be read: {}",
                         SourcePlace(file.string()), failure.what());
         throw Error(ErrorKind::input,

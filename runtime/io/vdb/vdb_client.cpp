@@ -33,7 +33,7 @@ fs::path reader_program() {
 
 [[noreturn]] void refuse(const InputFile& file, const HelperFailure& failure) {
     using Cause = HelperFailure::Cause;
-    if (failure.cause() == Cause::missing)
+    if (failure.cause() == Cause::missing || failure.cause() == Cause::killed)
         file.refuse(fmt::format("can't be read: {}", failure.what()));
     file.refuse(fmt::format(
         "not a readable OpenVDB file: {}, so it is {}; use another copy of it", failure.what(),

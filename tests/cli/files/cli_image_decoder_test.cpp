@@ -45,5 +45,13 @@ TEST_F(CliImageDecoderTest, CommandsDecodeNoImageThemselves) {
     expect_refusal("convert deep.exr b.nrrd", "deep.exr");
 }
 
+/// A thread's stack is as large as this limit by default.
+TEST_F(CliImageDecoderTest, LargeStacksTakeNoneOfTheMemory) {
+    write_exr(folder / "a.exr", {2, 1, {{"R", {1.0f, 2.0f}}}, {}, {}});
+    const ProgramResult result =
+        run_line("bash -c 'ulimit -s 400000 || exit 0; voxelume diff a.exr a.exr'");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 }  // namespace
 }  // namespace voxelume

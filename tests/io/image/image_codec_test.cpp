@@ -7,6 +7,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfStandardAttributes.h>
+#include <ImfThreading.h>
 #include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
 #include <turbojpeg.h>
@@ -93,12 +94,14 @@ Image tall_image() {
     return image;
 }
 
-/// A file of one float channel and one of ids in tiles whose height doesn't divide that of a band.
-void write_tiles(const std::filesystem::path& path, Imf::Compression compression) {
+/// A file of one float channel and one of ids, by default in tiles whose height doesn't divide that
+/// of a band.
+void write_tiles(const std::filesystem::path& path, Imf::Compression compression,
+                 const Imf::TileDescription& tiles = {20, 100}) {
     constexpr int kWidth = 37, kHeight = 521;
     Imf::Header header(kWidth, kHeight);
     header.compression() = compression;
-    header.setTileDescription(Imf::TileDescription(20, 100));
+    header.setTileDescription(tiles);
     header.channels().insert("Y", Imf::Channel(Imf::HALF));
     header.channels().insert("id", Imf::Channel(Imf::UINT));
     std::vector<half> values;
@@ -146,6 +149,21 @@ TEST_F(ImageCodecTest, ImagesHaveTheBitsOfThoseThatAreDecodedHere) {
         expect_same(apart, here);
         EXPECT_EQ(apart.id_planes.at("id")[37 * 521 - 1], (37u * 521 - 1) * 77777u);
     }
+}
+
+/// OpenEXR has two tiles for each thread, and each takes what a whole tile takes.
+TEST_F(ImageCodecTest, TilesLargerThanTheirImageAreDecodedWithAnyNumberOfThreads) {
+    decode_images({.is_apart = true});
+    for (const int side : {512, 4096}) {
+        write_tiles(path(), Imf::ZIP_COMPRESSION, {unsigned(side), unsigned(side)});
+        for (const int threads : {0, 2, 64}) {
+            Imf::setGlobalThreadCount(threads);
+            const Image image = read_exr(path());
+            EXPECT_EQ(image.id_planes.at("id")[37 * 521 - 1], (37u * 521 - 1) * 77777u)
+                << side << " " << threads;
+        }
+    }
+    Imf::setGlobalThreadCount(0);
 }
 
 TEST_F(ImageCodecTest, HeadersAreThoseThatAreReadHere) {
