@@ -10,7 +10,7 @@ namespace {
 
 using namespace voxelume;
 
-/// What a stamp's seal makes whole is whole, and nothing else with its length.
+/// A file that was sealed is as it was written.
 void check_stamps(std::span<const uint8_t> bytes) {
     static const std::filesystem::path file = fuzz_file(VXL_FUZZ_NAME);
     write_bytes(file, bytes);
@@ -26,7 +26,8 @@ void check_stamps(std::span<const uint8_t> bytes) {
 void check_entry(std::string_view bytes) {
     try {
         for (const auto& [name, content] : packed_files(bytes))
-            if (name.starts_with('/') || name.find("..") == 0 || content.data() < bytes.data() ||
+            if (name.starts_with('/') || ('/' + name + '/').find("/../") != name.npos ||
+                content.data() < bytes.data() ||
                 content.data() + content.size() > bytes.data() + bytes.size())
                 fail_fuzzing("a file outside", name);
     } catch (const PackedFileError&) {

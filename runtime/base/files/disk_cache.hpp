@@ -54,8 +54,8 @@ class DiskCache {
     void write(const std::string& key, std::string_view bytes) const noexcept;
 
     /// Why nothing can be written, in the words of the system: "Permission denied", or that its
-    /// disk has only some megabytes left. Empty if something can be, and for a cache that keeps
-    /// nothing. Asking leaves no file behind.
+    /// disk has no room for a scene's kernels. Empty if something can be, and for a cache that
+    /// keeps nothing. Asking leaves no file behind.
     std::string refusal() const;
     const std::filesystem::path& folder() const { return folder_; }
 

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/volume/volume_check.hpp"
 
-#include <xxhash.h>
-
-#include <algorithm>
-#include <memory>
-#include <vector>
-
-#include "runtime/base/files/input_file.hpp"
+#include "runtime/base/files/file_hash.hpp"
 #include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/volume/volume_json.hpp"
@@ -28,16 +22,7 @@ VolumeJson header_of_data(const VolumePath& path) {
 bool has_bytes(const InputFile& data, uint64_t offset, const VolumeJson& entry) {
     const auto bytes = entry.at("bytes").get<uint64_t>();
     if (offset > data.size() || bytes > data.size() - offset) return false;
-    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
-                                                                         XXH3_freeState);
-    XXH3_64bits_reset(state.get());
-    std::vector<char> block(std::min<uint64_t>(bytes, 1 << 20));
-    for (uint64_t done = 0; done < bytes; done += block.size()) {
-        block.resize(std::min<uint64_t>(block.size(), bytes - done));
-        data.read(offset + done, block.data(), block.size());
-        XXH3_64bits_update(state.get(), block.data(), block.size());
-    }
-    return entry.at("xxh3_64") == fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
+    return entry.at("xxh3_64") == fmt::format("{:016x}", hash_of_bytes(data, offset, bytes));
 }
 
 bool is_as_described(const InputFile& data, const VolumeJson& header) {

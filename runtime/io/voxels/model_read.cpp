@@ -3,10 +3,9 @@
 #include <xxhash.h>
 #include <zstd.h>
 
-#include <algorithm>
 #include <cstring>
-#include <memory>
 
+#include "runtime/base/files/file_hash.hpp"
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/model_format.hpp"
@@ -144,20 +143,6 @@ ModelArray read_array(const InputFile& file, const std::string& name,
     return read_elements<float>(file, name, array);
 }
 
-/// Start::data_sum of the file's bytes from `position` on.
-uint32_t data_sum_from(const InputFile& file, uint64_t position) {
-    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
-                                                                         XXH3_freeState);
-    XXH3_64bits_reset(state.get());
-    std::vector<char> block(std::min<uint64_t>(file.size() - position, 1 << 20));
-    for (; position < file.size(); position += block.size()) {
-        block.resize(std::min<uint64_t>(block.size(), file.size() - position));
-        file.read(position, block.data(), block.size());
-        XXH3_64bits_update(state.get(), block.data(), block.size());
-    }
-    return model_format::data_sum_of(XXH3_64bits_digest(state.get()));
-}
-
 }  // namespace
 
 const char* element_name(ElementType type) {
@@ -189,8 +174,9 @@ bool is_model_as_written(const std::filesystem::path& path) {
     try {
         read_model_file(path);
         const model_format::Start start = read_start(file);
-        return start.data_sum == 0 ||
-               start.data_sum == data_sum_from(file, sizeof start + start.directory_bytes);
+        const uint64_t data = sizeof start + start.directory_bytes;
+        return start.data_sum == 0 || start.data_sum == model_format::data_sum_of(hash_of_bytes(
+                                                            file, data, file.size() - data));
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::input) throw;
         return false;
