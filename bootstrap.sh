@@ -115,28 +115,17 @@ clang_build() {
         -B "build/$1" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 "${@:2}"
 }
 
-# run_fuzzers SECONDS: each reader with clang's sanitizers, from small valid files. What breaks one
-# is left in build/fuzz.
+# run_fuzzers SECONDS: each reader with clang's sanitizers, from small valid files, as many at a time
+# as there are cores. What breaks one is left in build/fuzz.
 run_fuzzers() {
-    clang_build fuzz -DVXL_FUZZ=ON
-    ninja -C build/fuzz fuzzers
-    build_targets voxelume
+    build_targets voxelume voxelume_api voxelume_verify
+    [ -f build/fuzz/build.ninja ] || CC=clang-14 CXX=clang++-14 cmake -G Ninja -S tests/fuzz \
+        -B build/fuzz -DVXL_BUILD="$build"
+    ninja -C build/fuzz
     tests/fuzz/make_seeds.py build/fuzz/seeds "$build/voxelume"
-    local fuzzer format words
-    for fuzzer in build/fuzz/tests/*_fuzz_*; do
-        [ -x "$fuzzer" ] || continue
-        format=${fuzzer##*_}
-        say "Fuzzing .$format"
-        mkdir -p "build/fuzz/corpus/$format" "build/fuzz/seeds/$format"
-        words=build/fuzz/seeds/$format.dict
-        [ -f "$words" ] && words=-dict=$words || words=-verbosity=0
-        # Freed memory is kept back for 8 MB, not 256, and stays with the process: up to 1.5 times as
-        # many runs a second.
-        ASAN_OPTIONS=quarantine_size_mb=8:allocator_release_to_os_interval_ms=-1:malloc_context_size=2 \
-            "$fuzzer" -max_total_time="$1" -malloc_limit_mb=256 -rss_limit_mb=2048 -timeout=60 \
-            -verbosity=0 "$words" -artifact_prefix="build/fuzz/$format-" \
-            "build/fuzz/corpus/$format" "build/fuzz/seeds/$format"
-    done
+    say "Fuzzing for $1 s each"
+    find build/fuzz -maxdepth 1 -name '*_fuzz_*' -printf '%f\n' | sort |
+        xargs -P "$(nproc)" -n 1 tests/fuzz/run_fuzzer.sh build/fuzz "$1"
 }
 
 # Compiled by clang, whose counters outlive processes that are killed.

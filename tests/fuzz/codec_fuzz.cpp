@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A libFuzzer target: any bytes as compressed meshes give arrays of the declared sizes or a clause
-// that says why not. It is built for Draco and for meshoptimizer. The first byte chooses what is
-// asked for; what follows is decoded.
+// that says why not. Formats are draco and meshopt. The first byte chooses what is asked for; what
+// follows is decoded.
 #include <stdexcept>
 
 #include "runtime/io/mesh_codec/mesh_decoders.hpp"
+#include "tests/fuzz/fuzz_name.hpp"
 #include "tests/fuzz/refusals.hpp"
 
 namespace {
@@ -47,10 +48,11 @@ void check_sizes(const CodecTask& task, const CodecArrays& arrays) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (size == 0) return 0;
-    const CodecTask task = VXL_FUZZ_DRACO ? draco_task(data[0]) : meshopt_task(data[0]);
+    static const bool is_draco = fuzzes("draco");
+    const CodecTask task = is_draco ? draco_task(data[0]) : meshopt_task(data[0]);
+    const auto decode = is_draco ? decode_draco : decode_meshopt;
     try {
-        check_sizes(task, (VXL_FUZZ_DRACO ? decode_draco : decode_meshopt)(
-                              task, std::span(data + 1, size - 1)));
+        check_sizes(task, decode(task, std::span(data + 1, size - 1)));
     } catch (const std::runtime_error&) {
     } catch (const std::bad_alloc&) {  // the helper's limit
     }

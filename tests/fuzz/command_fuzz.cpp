@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A libFuzzer target: any words after a command, one a line, are its options or are refused with a
 // sentence. Nothing is done that the command says. An input with a "#" in front is a file of
-// settings. Built as `shard`, its inputs are manifests of a run's parts.
+// settings. Under the name of the format `shard`, inputs are manifests of a run's parts.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -33,7 +33,7 @@ std::vector<std::string> lines_of(std::string_view text) {
 }
 
 void check_settings(std::span<const uint8_t> bytes) {
-    static const std::filesystem::path file = fuzz_file(VXL_FUZZ_NAME);
+    static const std::filesystem::path file = fuzz_file();
     write_bytes(file, bytes);
     setenv("VOXELUME_CONFIG", file.c_str(), 1);
     for (const cli::Setting& setting : cli::settings()) unsetenv(setting.variable);
@@ -45,7 +45,7 @@ void check_settings(std::span<const uint8_t> bytes) {
 }
 
 void check_manifest(std::span<const uint8_t> bytes) {
-    static const std::filesystem::path file = fuzz_file(VXL_FUZZ_NAME);
+    static const std::filesystem::path file = fuzz_file();
     write_bytes(file, bytes);
     try {
         cli::read_manifest(file);
@@ -57,7 +57,7 @@ void check_manifest(std::span<const uint8_t> bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    if (std::string_view(VXL_FUZZ_NAME).ends_with(".shard")) {
+    if (fuzzes("shard")) {
         check_manifest({data, size});
         return 0;
     }

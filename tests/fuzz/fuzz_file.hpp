@@ -9,16 +9,18 @@
 #include <span>
 #include <string>
 
+#include "tests/fuzz/fuzz_name.hpp"
+
 namespace voxelume {
 
-/// The file for a target, in a folder that no other process uses.
-inline std::filesystem::path fuzz_file(const char* name) {
+/// The file for the target, in a folder that no other process uses.
+inline std::filesystem::path fuzz_file() {
     const std::filesystem::path shared = "/dev/shm";
     const std::filesystem::path folder =
         (std::filesystem::is_directory(shared) ? shared : std::filesystem::temp_directory_path()) /
         ("voxelume_fuzz." + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
-    return folder / name;
+    return folder / fuzz_name();
 }
 
 inline void write_bytes(const std::filesystem::path& file, std::span<const uint8_t> bytes) {

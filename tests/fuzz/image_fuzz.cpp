@@ -23,7 +23,7 @@ void check_image(const std::filesystem::path& file) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    static const std::filesystem::path file = fuzz_file(VXL_FUZZ_NAME);
+    static const std::filesystem::path file = fuzz_file();
     const std::string ending = file.extension();
     if (ending == ".raw")
         write_pair(std::filesystem::path(file).replace_extension(".json"), file, {data, size});

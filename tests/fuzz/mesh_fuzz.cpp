@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A libFuzzer target: any bytes under a mesh's name give a valid Mesh or an error's sentence. It is
-// built once per format.
+// A libFuzzer target: any bytes under a mesh's name give a valid Mesh or an error's sentence.
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/gltf/gltf_motion.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
+#include "tests/fuzz/fuzz_name.hpp"
 #include "tests/fuzz/refusals.hpp"
 #include "tests/support/mesh_invariants.hpp"
 
@@ -11,8 +11,8 @@ namespace {
 
 voxelume::Mesh mesh_of(const std::string& bytes) {
     using namespace voxelume;
-    if (!is_gltf_file(VXL_FUZZ_NAME)) return parse_mesh(bytes, VXL_FUZZ_NAME);
-    const GltfFile file(bytes, VXL_FUZZ_NAME);
+    if (!is_gltf_file(fuzz_name())) return parse_mesh(bytes, fuzz_name());
+    const GltfFile file(bytes, fuzz_name());
     for (size_t clip = 0; clip < file.root().size("animations"); ++clip)
         GltfMotion(file, gltf_clip(file, clip));
     return gltf_mesh(file, 0);
@@ -23,7 +23,7 @@ voxelume::Mesh mesh_of(const std::string& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace voxelume;
     const std::string bytes(reinterpret_cast<const char*>(data), size);
-    check_refusal(VXL_FUZZ_NAME, [&] {
+    check_refusal(fuzz_name(), [&] {
         const std::string broken = broken_invariant(mesh_of(bytes));
         if (!broken.empty()) fail_fuzzing("invalid mesh", broken);
     });

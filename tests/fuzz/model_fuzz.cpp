@@ -102,7 +102,7 @@ std::vector<uint8_t> with_checksum(std::span<const uint8_t> bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    static const std::filesystem::path file = fuzz_file(VXL_FUZZ_NAME);
+    static const std::filesystem::path file = fuzz_file();
     if (size == 0) return 0;
     const std::span<const uint8_t> bytes(data + 1, size - 1);
     if (data[0] == 0)

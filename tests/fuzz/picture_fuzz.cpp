@@ -4,16 +4,17 @@
 #include "runtime/io/image/picture.hpp"
 #include "runtime/io/image/radiance_picture.hpp"
 #include "runtime/io/mesh/material_library.hpp"
+#include "tests/fuzz/fuzz_name.hpp"
 #include "tests/fuzz/refusals.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace voxelume;
-    const std::filesystem::path name = VXL_FUZZ_NAME;
+    static const std::filesystem::path name = fuzz_name();
     if (name.extension() == ".mtl") {
         parse_material_library({reinterpret_cast<const char*>(data), size});
         return 0;
     }
-    check_refusal(VXL_FUZZ_NAME, [&] {
+    check_refusal(name, [&] {
         if (name.extension() == ".hdr") {
             const ColorPicture colors = parse_radiance({data, size}, name, 1 << 20);
             if (colors.values.size() != 3 * size_t(colors.width) * size_t(colors.height))

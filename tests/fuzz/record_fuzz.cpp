@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A libFuzzer target: any bytes of what the program itself leaves on a disk are its own or not. It
-// is built for stamps of files (stamp) and for entries of the cache with compiled kernels (packed).
+// A libFuzzer target: any bytes of what the program itself leaves on a disk are its own or not.
+// Formats are stamps of files (stamp) and entries of the cache with compiled kernels (packed).
 #include "runtime/base/files/stamp.hpp"
 #include "runtime/opencl/source/packed_files.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
@@ -12,7 +12,7 @@ using namespace voxelume;
 
 /// A file that was sealed is as it was written.
 void check_stamps(std::span<const uint8_t> bytes) {
-    static const std::filesystem::path file = fuzz_file(VXL_FUZZ_NAME);
+    static const std::filesystem::path file = fuzz_file();
     write_bytes(file, bytes);
     is_as_written(file);
     check_stamp(file, kNoFrame);
@@ -37,7 +37,7 @@ void check_entry(std::string_view bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    if (std::string_view(VXL_FUZZ_NAME).ends_with(".stamp"))
+    if (fuzzes("stamp"))
         check_stamps({data, size});
     else
         check_entry({reinterpret_cast<const char*>(data), size});

@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     check_refusal("/nowhere/", [&] {
         AssetStore assets;
         const Scene scene = parse_scene(
-            text, "/nowhere/" VXL_FUZZ_NAME, {},
+            text, "/nowhere/fuzz.json", {},
             [&](const Model& model, bool keeps) { return assets.box_of_file(model, keeps); });
         for (const double frame : {0.0, 1.0, 2.5, 1e6}) scene_at(scene, frame);
     });

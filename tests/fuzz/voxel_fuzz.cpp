@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A libFuzzer target: any bytes in a file of voxels give a valid model or an error's sentence. The
-// target is built once per format. A NIfTI pair is the header, .hdr, and the data, .img, divided by
-// write_pair; an NRRD header, .nhdr, may name what follows it, "data".
+// A libFuzzer target: any bytes in a file of voxels give a valid model or an error's sentence. A
+// NIfTI pair is the header, .hdr, and the data, .img, divided by write_pair; an NRRD header, .nhdr,
+// may name what follows it, "data".
 #include <algorithm>
 
 #include "runtime/assets/voxel_model_file.hpp"
@@ -56,7 +56,7 @@ void check_scene(const std::filesystem::path& file) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    static const std::filesystem::path file = fuzz_file(VXL_FUZZ_NAME);
+    static const std::filesystem::path file = fuzz_file();
     write_input(file, {data, size});
     VoxelValues above, labels;
     above.iso = 3;

@@ -22,9 +22,11 @@ namespace {
 /// beyond it is false, and no memory is allocated for it.
 constexpr uint64_t kLargestRatio = 4096;
 
-/// Refuses channels of a part that are missing or subsampled.
-void check_channels(const InputFile& file, const Imf::Header& header,
-                    const std::vector<ExrChannel>& channels) {
+/// Refuses a part of another size than `image`, and channels that are missing or subsampled.
+void check_part(const InputFile& file, const Imf::Header& header,
+                const std::vector<ExrChannel>& channels, const ExrHeader& image) {
+    if (header.dataWindow().size() != Imath::V2i(image.width - 1, image.height - 1))
+        file.refuse("not a readable OpenEXR file: its data windows differ");
     for (const ExrChannel& channel : channels) {
         const Imf::Channel* found = header.channels().findChannel(channel.own);
         if (!found) file.refuse(fmt::format("channel {} is missing", channel.own));
@@ -35,15 +37,12 @@ void check_channels(const InputFile& file, const Imf::Header& header,
 }
 
 /// Reads the rows of a part, which has these channels.
-void read_part(const InputFile& file, Imf::InputPart part, const std::vector<ExrChannel>& channels,
-               const ExrHeader& header, ExrSink& sink) {
+void read_part(Imf::InputPart part, const std::vector<ExrChannel>& channels, ExrSink& sink) {
     const Imath::Box2i window = part.header().dataWindow();
-    if (window.size() != Imath::V2i(header.width - 1, header.height - 1))
-        file.refuse("not a readable OpenEXR file: its data windows differ");
-    check_channels(file, part.header(), channels);
+    const int height = window.size().y + 1;
     const int step = std::max(sink.rows_at_once(), 1);
-    for (int first = 0; first < header.height;) {
-        const int count = std::min(step, header.height - first);
+    for (int first = 0; first < height;) {
+        const int count = std::min(step, height - first);
         Imath::Box2i rows = window;
         rows.min.y += first;
         rows.max.y = rows.min.y + count - 1;
@@ -125,7 +124,9 @@ Image decode_exr(const InputFile& file, ExrSink& sink) {
         for (int part = 0; part < input.parts(); ++part) {
             if (part > 0 && !header.parts.at(size_t(part)).is_read) continue;
             if (!input.partComplete(part)) file.refuse("rows are missing; the file is truncated");
-            read_part(file, Imf::InputPart(input, part), channels_in(part, channels), header, sink);
+            const std::vector<ExrChannel> own = channels_in(part, channels);
+            check_part(file, input.header(part), own, header);  // before memory for it is taken
+            read_part(Imf::InputPart(input, part), own, sink);
             add_texts(input.header(part), input.parts() > 1, image);
         }
         return image;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -151,7 +152,11 @@ bool walk_part(Walk& walk, ExrExtent& extent) {
     std::string name = walk.name();
     if (name.empty()) return false;
     Part part;
+    std::set<std::string> names;
     for (; !name.empty(); name = walk.name()) {
+        // Of two, one of OpenEXR's libraries takes the first, and one the last.
+        if (!names.insert(name).second)
+            walk.fail(fmt::format("it has its attribute {} twice", name));
         const std::string type = walk.name();
         const uint64_t size = walk.number();
         if (size > walk.left())

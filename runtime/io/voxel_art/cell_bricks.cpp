@@ -27,7 +27,7 @@ CellBricks::CellBricks(const glm::ivec3& low, const glm::ivec3& high, const Inpu
 }
 
 uint32_t CellBricks::add_brick() {
-    check_stored_bricks(count_ + 1, file_);
+    check_listed_bricks(count_ + 1, file_);
     if (!is_counting_) add_cells(1);
     return count_++;
 }
@@ -53,6 +53,7 @@ VoxelModel CellBricks::model() const {
     model.occupancy.assign(size_t(count_) * kLeavesPerBrick, 0);
     const bool is_white = std::ranges::all_of(
         cells_, [](uint32_t cell) { return cell == kNoVoxel || cell == kWhite; });
+    if (!is_white) model.colors.reserve(cells_.size());
     for (size_t brick = 0; brick < numbers_.size(); ++brick) {
         if (numbers_[brick] == kNone) continue;
         const size_t slot = model.coordinates.size();

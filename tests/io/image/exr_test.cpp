@@ -223,6 +223,20 @@ TEST_F(ExrTest, AttributesOfOtherLengthsThanTheirTypesHaveAreRefused) {
     }
 }
 
+/// One of OpenEXR's libraries takes the first, and one the last: 1.7 GB for a file of 593 bytes.
+TEST_F(ExrTest, AnAttributeThatIsThereTwiceIsRefused) {
+    write_exr(path(), random_image(4, 4));
+    std::string bytes = bytes_of(path());
+    using namespace std::string_literals;
+    const size_t second = bytes.find("displayWindow\0"s);
+    bytes.insert(second,
+                 "dataWindow\0box2i\0\x10\0\0\0"s + "\0\0\0\0\0\0\0\0"s + "\1\0\x29\0\4\0\0\0"s);
+    put_bytes(path(), bytes);
+    EXPECT_EQ(error_of([&] { read_exr(path()); }).exit_code(), 4);
+    EXPECT_THAT(error_of([&] { read_exr_header(path()); }).what(),
+                HasSubstr("it has its attribute dataWindow twice"));
+}
+
 TEST_F(ExrTest, ADamagedFileEndsInAnErrorOrAnImage) {
     write_exr(path(), random_image());
     const std::string bytes = bytes_of(path());

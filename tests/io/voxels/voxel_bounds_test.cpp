@@ -53,7 +53,12 @@ TEST_F(VoxelBoundsTest, QubicleCellsAreCountedBeforeTheyAreSet) {
 
 TEST_F(VoxelBoundsTest, BricksAreCountedBeforeMemoryIsTaken) {
     // 16384 x 16384 cells lie in 2^20 bricks of 16 KiB.
-    EXPECT_THAT(refusal("a.qb", qb_of(1, 1) + full_slice(16384)), HasSubstr("262144 are possible"));
+    const std::string slice = qb_of(1, 1) + full_slice(16384);
+    EXPECT_THAT(refusal("a.qb", slice),
+                HasSubstr("more than 8452 bricks of 16 x 16 x 16, and 8452 are possible in a file "
+                          "of 65 bytes"));
+    const std::string large = slice + std::string(1 << 16, '\0');  // what follows isn't read
+    EXPECT_THAT(refusal("a.qb", large), HasSubstr("262144 are possible"));
     put_bytes(folder / "b", "x");
     const InputFile file(folder / "b");
     CellBricks bricks({0, 0, 0}, {40, 16, 16}, file);
@@ -65,6 +70,16 @@ TEST_F(VoxelBoundsTest, BricksAreCountedBeforeMemoryIsTaken) {
     });
     EXPECT_EQ(rounds, 2);
     EXPECT_EQ(bricks.model().voxels(), 2u);
+}
+
+TEST_F(VoxelBoundsTest, SmallFilesDontSpanIndicesOfGigabytes) {
+    const auto cell_at = [](int place) {
+        return std::string(1, '\0') + bytes_of_all(1u, 1u, 1u, place, place, place, 0xFF0000FFu);
+    };
+    EXPECT_THAT(refusal("a.qb", qb_of(0, 2) + cell_at(0) + cell_at(9000)),
+                HasSubstr("in a file of 82 bytes, 33890304 bricks"));
+    put_bytes(folder / "b.qb", qb_of(0, 2) + cell_at(0) + cell_at(4000));
+    EXPECT_EQ(read_voxel_model(folder / "b.qb", Surface::cubes, 0, {}).voxels(), 2u);
 }
 
 TEST_F(VoxelBoundsTest, BinvoxRunsAreAddedUpFirst) {
