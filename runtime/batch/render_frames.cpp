@@ -17,6 +17,7 @@
 #include "runtime/batch/run_warnings.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/memory/image_bands.hpp"
+#include "runtime/render/smaller_batches.hpp"
 #include "runtime/render/volume_renderer.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -188,8 +189,13 @@ class Batch {
             ImagePart& part = parts[input.device];
             Renderer renderer(devices_[input.device], false);
             renderer.set_moments(input.moments);
-            part.image =
-                renderer.part_of_image(input.scene, input.world, part.report, {share, part.tiles});
+            part.image = with_batches_that_fit(
+                devices_[input.device], [&] { return !part.tiles.empty(); },
+                [&] {
+                    part.report = {};
+                    return renderer.part_of_image(input.scene, input.world, part.report,
+                                                  {share, part.tiles});
+                });
             part.report.world = input.report;
             return [] {};
         };
