@@ -7,6 +7,7 @@ import argparse
 import json
 import pathlib
 import re
+import struct
 import subprocess
 import tempfile
 
@@ -53,6 +54,51 @@ def made_by(program):
     return seeds
 
 
+def answers(program):
+    """What helper programs answer to small files, each behind the byte that chooses its question."""
+    version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True)
+    version = version.stdout.split()[1]
+    seeds = {"image": [], "grid": [], "mesh": []}
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+
+        def run(*words):
+            subprocess.run([program, *words], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+
+        def ask(kind, choice, helper, file, *questions):
+            answer = bytes([choice])
+            for question in questions:  # descriptor 3 takes the answer
+                command = [program.parent / helper, version, file, *question.split()]
+                redirected = ["bash", "-c", 'exec "$@" <"$0" 3>&1 >/dev/null', file, *command]
+                answer += subprocess.run(redirected, cwd=folder, check=True,
+                                         stdout=subprocess.PIPE).stdout
+            seeds[kind].append(answer)
+        (folder / "scene.json").write_text(SCENE % "rays")
+        run("render", "-q", "scene.json", "-o", "a.exr", "-o", "a.png", "--volume", "deep.exr",
+            "--volume", "volume.vdb")
+        (folder / "a.jpg").write_bytes(SEEDS["jpg"][0])
+        images = "voxelume-image-decoder"
+        ask("image", 0, images, "a.exr", "exr-header 0")
+        ask("image", 1, images, "a.exr", "exr 0")
+        ask("image", 2, images, "deep.exr", "deep-exr-header 0 0", "deep-exr 0 4")
+        ask("image", 3, images, "deep.exr", "deep-exr-header 0 0", "deep-exr 0 4")
+        ask("image", 4, images, "a.jpg", "jpeg 1000")
+        ask("image", 5, images, "a.png", "png-shape")
+        ask("image", 6, images, "a.png", "png 1000")
+        (folder / "a.ply").write_bytes(PLYS[0])
+        grids = "voxelume-vdb-reader"
+        for i, surface in enumerate(("cubes", "smooth")):
+            run("voxelize", "-q", "a.ply", "--resolution", "2", "--surface", surface, "-o", "a.vdb")
+            ask("grid", 2 + i, grids, "a.vdb", f"model {i}")
+        ask("grid", 0, grids, "a.vdb", "summary")
+        ask("grid", 1, grids, "volume.vdb", "density density")
+        ask("grid", 4, grids, "volume.vdb", "volume")
+    for choice, sizes in (0, (24, 36, 12)), (1, (12,)):
+        arrays = b"".join(struct.pack("<Q", size) + bytes(range(size)) for size in sizes)
+        seeds["mesh"].append(bytes([choice]) + 2 * (struct.pack("<I", 0x4D434402) + arrays))
+    return seeds
+
+
 def words_of_schema():
     """The keys and the values of scenes that have names."""
     words = set()
@@ -94,7 +140,7 @@ def main():
     seeds = dict(SEEDS, words=[*COMMANDS, SETTINGS])
     seeds["json"] = [file.read_bytes() for file in sorted((ROOT / "scenes").glob("*.json"))
                      if not file.name.endswith("schema.json") and file.stat().st_size < LARGEST]
-    for name, files in made_by(program).items():
+    for name, files in [*made_by(program).items(), *answers(program).items()]:
         seeds[name] = [*seeds.get(name, []), *files]
     for name, files in seeds.items():
         (folder / name).mkdir(parents=True, exist_ok=True)

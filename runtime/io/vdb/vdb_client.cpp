@@ -62,6 +62,11 @@ auto ask(const InputFile& file, const std::vector<std::string>& question, const 
     }
 }
 
+/// The helper holds the tree, too, within its limit.
+uint64_t max_tree(const InputFile& file) {
+    return reader_limits(file.size()).reading_bytes;
+}
+
 VdbFileSummary receive_summary(WireReceiver& receiver) {
     VdbFileSummary summary{receiver.texts(), {}};
     for (uint64_t left = receiver.count(kMaxEntries); left > 0; --left) {
@@ -78,7 +83,7 @@ VdbFileSummary receive_summary(WireReceiver& receiver) {
     return summary;
 }
 
-VdbModel receive_model(WireReceiver& receiver) {
+VdbModel receive_model(WireReceiver& receiver, const InputFile& file) {
     VdbModel model;
     VdbVoxels& voxels = model.voxels;
     voxels.voxel_edges = receiver.value<glm::dvec3>();
@@ -89,7 +94,7 @@ VdbModel receive_model(WireReceiver& receiver) {
     const size_t count = voxels.cells.size();
     if (voxels.values.size() != count || (!voxels.colors.empty() && voxels.colors.size() != count))
         WireReceiver::fail();
-    if (receiver.value<uint32_t>() != 0) model.grid = receive_grid(receiver);
+    if (receiver.value<uint32_t>() != 0) model.grid = receive_grid(receiver, max_tree(file));
     return model;
 }
 
@@ -139,16 +144,19 @@ VdbFileSummary read_vdb_summary(const fs::path& path) {
 
 std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density) {
     const InputFile file(density.file);
-    const openvdb::FloatGrid::Ptr grid = readers_are_isolated
-                                             ? ask(file, {"density", density.grid}, receive_grid)
-                                             : density_in(file, density.grid);
-    return density_field_of(grid, density.world_from_grid);
+    if (!readers_are_isolated)
+        return density_field_of(density_in(file, density.grid), density.world_from_grid);
+    const auto receive = [&](WireReceiver& receiver) {
+        return receive_grid(receiver, max_tree(file));
+    };
+    return density_field_of(ask(file, {"density", density.grid}, receive), density.world_from_grid);
 }
 
 VdbVoxels read_vdb_voxels(const fs::path& path, Surface surface) {
     const InputFile file(path);
     if (!readers_are_isolated) return with_values(model_in(read_vdb_content(file), file, surface));
-    return with_values(ask(file, {"model", std::to_string(int(surface))}, receive_model));
+    const auto receive = [&](WireReceiver& receiver) { return receive_model(receiver, file); };
+    return with_values(ask(file, {"model", std::to_string(int(surface))}, receive));
 }
 
 Volume read_volume_vdb(const VolumePath& path) {

@@ -126,14 +126,15 @@ std::string names_of(const openvdb::GridPtrVec& grids) {
     return names.empty() ? "none" : names;
 }
 
-void check_values(const FloatGrid& grid, const std::string& name, const InputFile& file) {
+}  // namespace
+
+void check_values(const FloatGrid& grid, const InputFile& file) {
     bool finite = std::isfinite(grid.background());
     for (auto value = grid.cbeginValueAll(); value && finite; ++value)
         finite = std::isfinite(*value);
-    if (!finite) file.refuse(fmt::format("grid \"{}\" has a value that is no number", name));
+    if (!finite)
+        file.refuse(fmt::format("grid \"{}\" has a value that is no number", grid.getName()));
 }
-
-}  // namespace
 
 FloatGrid::Ptr density_in(const InputFile& file, const std::string& name) {
     const openvdb::GridPtrVecPtr grids = read_vdb_content(file).grids;
@@ -148,7 +149,7 @@ FloatGrid::Ptr density_in(const InputFile& file, const std::string& name) {
                 fmt::format("grid \"{}\" is bent by its transform; only affine ones "
                             "can be placed",
                             name));
-        check_values(*floats, name, file);
+        check_values(*floats, file);
         return floats;
     }
     file.refuse(fmt::format("has no grid \"{}\"; its grids: {}", name, names_of(*grids)));

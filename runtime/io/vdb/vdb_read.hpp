@@ -29,6 +29,9 @@ VdbContent read_vdb_content(const InputFile& file);
 
 VdbFileSummary summary_in(const InputFile& file);
 
+/// Refuses a grid with a value, of an inactive cell, too, that isn't finite.
+void check_values(const openvdb::FloatGrid& grid, const InputFile& file);
+
 /// The grid of a density: float values, all finite, under an affine transform.
 openvdb::FloatGrid::Ptr density_in(const InputFile& file, const std::string& grid);
 

@@ -82,12 +82,12 @@ Map map_of(const MapNumbers& numbers) {
     WireReceiver::fail();
 }
 
-Map receive_map(WireReceiver& receiver) {
+openvdb::math::Transform::Ptr receive_transform(WireReceiver& receiver) {
     const auto numbers = receiver.value<MapNumbers>();
     for (const double number : numbers.matrix)
         if (!std::isfinite(number)) WireReceiver::fail();
     try {
-        return map_of(numbers);
+        return std::make_shared<openvdb::math::Transform>(map_of(numbers));
     } catch (const openvdb::Exception&) {
         WireReceiver::fail();  // a map without an inverse
     }
@@ -108,8 +108,32 @@ std::vector<TileNumbers> tiles_of(const FloatGrid& grid) {
     return tiles;
 }
 
+float finite(float value) {
+    if (!std::isfinite(value)) WireReceiver::fail();
+    return value;
+}
+
+/// Fails where a tree of tiles and leaves that lie far apart, of which each takes up to 300 kB,
+/// outgrows a limit.
+class TreeLimit {
+  public:
+    TreeLimit(const Tree& tree, uint64_t max_bytes) : tree_(tree), max_bytes_(max_bytes) {}
+
+    /// Call it before each tile and leaf. It looks at the tree each time that these have doubled.
+    void check() {
+        if (added_++ < next_) return;
+        next_ *= 2;
+        if (tree_.memUsage() > max_bytes_) WireReceiver::fail();
+    }
+
+  private:
+    const Tree& tree_;
+    uint64_t max_bytes_, added_ = 0, next_ = 256;
+};
+
 void receive_leaf(WireReceiver& receiver, Tree& tree) {
     const auto numbers = receiver.value<LeafNumbers>();
+    for (const float value : numbers.values) finite(value);
     Leaf& leaf = *tree.touchLeaf(Coord(numbers.x, numbers.y, numbers.z));
     std::copy(numbers.values.begin(), numbers.values.end(), leaf.buffer().data());
     Leaf::NodeMaskType mask;
@@ -136,17 +160,21 @@ void send_grid(WireSender& sender, const FloatGrid& grid) {
     }
 }
 
-FloatGrid::Ptr receive_grid(WireReceiver& receiver) {
+FloatGrid::Ptr receive_grid(WireReceiver& receiver, uint64_t max_bytes) {
     constexpr uint64_t kMaxCount = uint64_t{1} << 32;
-    FloatGrid::Ptr grid = FloatGrid::create(receiver.value<float>());
-    grid->setTransform(std::make_shared<openvdb::math::Transform>(receive_map(receiver)));
+    FloatGrid::Ptr grid = FloatGrid::create(finite(receiver.value<float>()));
+    grid->setTransform(receive_transform(receiver));
+    TreeLimit limit(grid->tree(), max_bytes);
     for (const TileNumbers& tile : receiver.values<TileNumbers>(kMaxCount)) {
         if (tile.level < 1 || tile.level > Tree::RootNodeType::LEVEL) WireReceiver::fail();
-        grid->tree().addTile(tile.level, Coord(tile.x, tile.y, tile.z), tile.value,
+        limit.check();
+        grid->tree().addTile(tile.level, Coord(tile.x, tile.y, tile.z), finite(tile.value),
                              tile.is_active != 0);
     }
-    const uint64_t leaves = receiver.count(kMaxCount);
-    for (uint64_t leaf = 0; leaf < leaves; ++leaf) receive_leaf(receiver, grid->tree());
+    for (uint64_t left = receiver.count(kMaxCount); left > 0; --left) {
+        limit.check();
+        receive_leaf(receiver, grid->tree());
+    }
     return grid;
 }
 

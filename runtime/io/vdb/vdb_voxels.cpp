@@ -51,6 +51,7 @@ glm::dvec3 cell_edges(const FloatGrid& grid, const InputFile& readable) {
 
 VdbModel take_voxels(const openvdb::GridPtrVec& grids, Surface surface, const InputFile& readable) {
     const FloatGrid::Ptr grid = find_grid(grids, surface, readable);
+    if (stores_distances(surface)) check_values(*grid, readable);  // of inactive cells, too
     VdbVoxels voxels;
     voxels.voxel_edges = cell_edges(*grid, readable);
     const Vec3d origin = grid->indexToWorld(Vec3d(0.0));

@@ -6,16 +6,20 @@
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <bit>
+#include <cmath>
+#include <cstring>
 #include <random>
 #include <thread>
 
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/vdb/vdb_density.hpp"
+#include "runtime/io/vdb/vdb_tree.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
 #include "runtime/io/volume_file.hpp"
 #include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/volume_samples.hpp"
+#include "tests/support/writers/art_writer.hpp"
 
 namespace voxelume {
 
@@ -156,6 +160,53 @@ TEST_F(VdbReaderTest, DamageAnywhereEndsTheHelperAtMost) {
                 EXPECT_THAT(error.what(), HasSubstr("a.vdb: ")) << i;
             }
     }
+}
+
+TEST_F(VdbReaderTest, DistancesOfInactiveCellsAreNumbersToo) {
+    openvdb::initialize();
+    const auto ball =
+        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(7.3f, openvdb::Vec3f(0), 0.5f);
+    ball->tree().setValueOff(Coord(40, 0, 0), std::nanf(""));
+    openvdb::io::File(path().string()).write({ball});
+    EXPECT_THAT(error_of([&] { read_vdb_voxels(path(), Surface::smooth); }).what(),
+                HasSubstr("has a value that is no number"));
+}
+
+/// What a helper answers that was taken over.
+class VdbAnswerTest : public FileTest {
+  protected:
+    /// A grid under a map, with tiles far apart.
+    static std::string answer_of(int type, const std::array<double, 16>& map, int32_t tiles) {
+        std::string answer = bytes_of_all(0.0f, type, 0, map, uint64_t(tiles));
+        for (int32_t i = 0; i < tiles; ++i) answer += bytes_of_all(i * 4096, 0, 0, 1u, 1.0f, 1u);
+        return answer + bytes_of_all(uint64_t{0});
+    }
+    openvdb::FloatGrid::Ptr receive(const std::string& answer) const {
+        put_bytes(folder / "answer", answer);
+        HelperProcess helper("/bin/sh", {"-c", "cat " + (folder / "answer").string() + " >&3"}, 0,
+                             60);
+        WireReceiver receiver(helper);
+        return vdb::receive_grid(receiver, 100'000'000);
+    }
+};
+
+constexpr int kScaleShifted = 4, kAffine = 5;
+constexpr std::array<double, 16> kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+/// Each tile of 24 bytes makes the receiver's tree grow by 300 kB.
+TEST_F(VdbAnswerTest, TreesDontOutgrowTheHelpersLimit) {
+    EXPECT_GT(receive(answer_of(kAffine, kIdentity, 200))->tree().memUsage(), 50'000'000u);
+    EXPECT_THROW(receive(answer_of(kAffine, kIdentity, 10000)), HelperFailure);
+}
+
+/// OpenVDB throws where it simplifies such maps.
+TEST_F(VdbAnswerTest, MapsThatOpenVdbDoesntTakeAreRefused) {
+    std::array<double, 16> far = kIdentity;
+    far[12] = 3.5e151;
+    far[15] = -1.7e212;
+    EXPECT_THROW(receive(answer_of(kScaleShifted, far, 0)), HelperFailure);
+    EXPECT_THROW(receive(answer_of(kAffine, {}, 0)), HelperFailure);
+    EXPECT_THROW(receive(answer_of(7, kIdentity, 0)), HelperFailure);
 }
 
 TEST_F(VdbReaderTest, AFileOfEightBytesIsRefused) {
