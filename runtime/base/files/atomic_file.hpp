@@ -37,6 +37,9 @@ class AtomicFile final : public ByteSink {
     /// The current path of the bytes. A verifying reader opens it before commit().
     const std::filesystem::path& temporary() const { return temporary_; }
 
+    /// Throws if other bytes can be read from the disk than were written.
+    void read_back();
+
     /// Seals the bytes' stamp if they have one, writes them to the disk, reads them back from there
     /// and gives the file its name if they are what was written. If then the folder can't be
     /// synced, the file stays, and the error says that it is whole.
@@ -53,7 +56,6 @@ class AtomicFile final : public ByteSink {
     void read(uint64_t position, char* data, size_t size);
     void read_and_compare(uint64_t position, char* data, size_t size);
     void put_seal();
-    void read_back();
     void sync_folder();
 
     std::filesystem::path target_;  ///< path as the user named it

@@ -181,7 +181,10 @@ void write_volume_exr(const VolumePath& path, const Volume& volume) {
     }
     const InputFile written(file.temporary());
     const uint64_t offset = volume_exr::find_checksum(written);
-    if (offset == 0) file.fail("its texts are too long for a header");
+    if (offset == 0) {
+        file.read_back();
+        file.fail("its texts are too long for a header");
+    }
     const std::string checksum = volume_exr::compute_checksum(written, offset);
     file.seek(offset);
     file.write(checksum.data(), checksum.size());
