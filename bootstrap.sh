@@ -119,13 +119,13 @@ clang_build() {
 # as there are cores. What breaks one is left in build/fuzz.
 run_fuzzers() {
     build_targets voxelume voxelume_api voxelume_verify
-    [ -f build/fuzz/build.ninja ] || CC=clang-14 CXX=clang++-14 cmake -G Ninja -S tests/fuzz \
-        -B build/fuzz -DVXL_BUILD="$build"
+    grep -qs voxelume_fuzzers build/fuzz/CMakeCache.txt || rm -rf build/fuzz # of another project
+    CC=clang-14 CXX=clang++-14 cmake -G Ninja -S tests/fuzz -B build/fuzz -DVXL_BUILD="$build"
     ninja -C build/fuzz
     tests/fuzz/make_seeds.py build/fuzz/seeds "$build/voxelume"
     say "Fuzzing for $1 s each"
     find build/fuzz -maxdepth 1 -name '*_fuzz_*' -printf '%f\n' | sort |
-        xargs -P "$(nproc)" -n 1 tests/fuzz/run_fuzzer.sh build/fuzz "$1"
+        xargs -r -P "$(nproc)" -n 1 tests/fuzz/run_fuzzer.sh build/fuzz "$1"
 }
 
 # Compiled by clang, whose counters outlive processes that are killed.

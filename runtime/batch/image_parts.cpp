@@ -5,6 +5,9 @@
 #include <span>
 #include <utility>
 
+#include "runtime/base/error.hpp"
+#include "runtime/stages/trace/sight.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -52,6 +55,11 @@ void add_report(const RenderReport& part, RenderReport& sum) {
 
 Image join_parts(std::vector<ImagePart> parts, RenderReport& report) {
     Image image = std::move(parts.front().image);
+    uint64_t tiles = 0;
+    for (const ImagePart& part : parts)
+        for (const TileRange& range : part.tiles) tiles += range.count;
+    if (tiles < tile_count(image.width, image.height))
+        throw Error(ErrorKind::render, "a device left out tiles of the image; please report this");
     for (const ImagePart& part : std::span(parts).subspan(1)) copy_tiles(part, image);
     for (const ImagePart& part : parts) add_report(part.report, report);
     return image;

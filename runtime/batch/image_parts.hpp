@@ -19,7 +19,7 @@ struct ImagePart {
 void add_report(const RenderReport& part, RenderReport& sum);
 
 /// The image of parts that have all its tiles. `report` counts the rays of all; its world and its
-/// times are those of the device that took longest.
+/// times are those of the device that took longest. Throws Error::render if tiles are missing.
 Image join_parts(std::vector<ImagePart> parts, RenderReport& report);
 
 }  // namespace voxelume

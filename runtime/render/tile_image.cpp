@@ -163,6 +163,7 @@ void Renderer::add_moment(const Scene& scene, const BuiltWorld& built, const Til
     ResolveStage resolve(device_, features, shown, scene.render.channels, sums.image, adds);
     MatteStage mattes(device_, features, shown, scene, sums.mattes, adds);
     while (const std::optional<TileRange> range = tiles.share.take(hits.in_batch)) {
+        TakenTiles in_work(tiles.share, *range);
         const uint32_t first = range->first, count = range->count * rays_per_tile;
         illumination.set_sampling(path_sampling(scene, observer, first));
         if (hits.are_known) {
@@ -178,6 +179,7 @@ void Renderer::add_moment(const Scene& scene, const BuiltWorld& built, const Til
         resolve.pixels(world, batch, first, range->count);
         mattes.pixels(batch, first, range->count);
         if (!hits.are_lent) report.sight_rays += count;
+        in_work.set_done();
         note_done(*range, tiles, sums.part);
     }
     view_ = std::move(hits.view);

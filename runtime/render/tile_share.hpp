@@ -49,6 +49,8 @@ class TileShare {
 
     /// The next tiles, at most `count`; empty if all were handed out.
     std::optional<TileRange> take(uint32_t count);
+    /// Hands out tiles again that were taken and not rendered.
+    void give_back(const TileRange& range);
     /// Reports to the progress callback that these tiles are done, with the weight of their work.
     void done(const TileRange& range) { add_work(range.count * weight_); }
     /// Reports that work is done or not needed: 1 is a tile with all of its weights.
@@ -76,8 +78,26 @@ class TileShare {
     double done_ = 0;                 ///< tiles
     FrameProgress progress_;
     TileShare* whole_ = nullptr;
-    std::vector<TileRange> ranges_;  ///< the remaining tiles of another share
+    std::vector<TileRange> ranges_;  ///< what is left of another share, and what was given back
     std::atomic<bool> is_closed_ = false;
+};
+
+/// Tiles of a share, which go back to it unless they are done.
+class TakenTiles {
+  public:
+    TakenTiles(TileShare& share, const TileRange& range) : share_(share), range_(range) {}
+    ~TakenTiles() {
+        if (!are_done_) share_.give_back(range_);
+    }
+    TakenTiles(const TakenTiles&) = delete;
+    TakenTiles& operator=(const TakenTiles&) = delete;
+
+    void set_done() { are_done_ = true; }
+
+  private:
+    TileShare& share_;
+    TileRange range_;
+    bool are_done_ = false;
 };
 
 }  // namespace voxelume

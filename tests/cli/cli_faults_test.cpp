@@ -219,6 +219,25 @@ TEST_F(CliFaultsTest, MemoryThatIsShortIsEnoughForSmallerBatches) {
     }
 }
 
+/// A launch that fails has tiles in work, which no other device takes.
+TEST_F(CliFaultsTest, LaunchesThatLackMemoryLoseNoTilesOfASharedImage) {
+    command_ =
+        "render scene.json --no-cache -o out/a.exr --device all/2 --size 160x120 --samples 4";
+    remove_files();
+    ASSERT_EQ(render("").exit_code, 0);
+    const std::map<std::string, std::string> expected = files();
+    int again = 0;
+    for (int number = 1; number<80; number += number> 15 && number < 25 ? 1 : 7) {
+        remove_files();
+        const ProgramResult result =
+            render(fmt::format("VXL_FAULT=clEnqueueNDRangeKernel:{}:-5", number));
+        EXPECT_EQ(result.exit_code, result.exit_code == 0 ? 0 : 8) << number << result.err;
+        EXPECT_TRUE(result.exit_code == 0 ? files() == expected : files().empty()) << number;
+        again += result.exit_code == 0;
+    }
+    EXPECT_GT(again, 3) << "launches that failed and were made again";
+}
+
 TEST_F(CliFaultsTest, CallsThatAreLateChangeNothing) {
     command_ = "render scene.json --no-cache -o out/a.exr";
     remove_files();

@@ -195,6 +195,7 @@ void AtomicFile::put_seal() {
 /// The system's copies are dropped first, so that the disk's bytes are read where the file system
 /// allows that.
 void AtomicFile::read_back() {
+    if (fsync(descriptor_) != 0) fail_with_errno(errno);
     posix_fadvise(descriptor_, 0, 0, POSIX_FADV_DONTNEED);
     struct stat status {};
     if (fstat(descriptor_, &status) != 0) fail_with_errno(errno);
@@ -208,7 +209,6 @@ void AtomicFile::read_back() {
 void AtomicFile::commit() {
     if (failure_) throw *failure_;
     put_seal();
-    if (fsync(descriptor_) != 0) fail_with_errno(errno);
     read_back();
     const int closing = descriptor_;
     descriptor_ = -1;

@@ -37,7 +37,7 @@ class AtomicFile final : public ByteSink {
     /// The current path of the bytes. A verifying reader opens it before commit().
     const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Throws if other bytes can be read from the disk than were written.
+    /// Writes the bytes to the disk, and throws if others are read back from there.
     void read_back();
 
     /// Seals the bytes' stamp if they have one, writes them to the disk, reads them back from there

@@ -3,7 +3,9 @@
 // program's memory instead of ours. vdb_reader_main.cpp is the other end.
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "runtime/base/helper/helper_wire.hpp"
 #include "runtime/io/vdb/vdb_client.hpp"
@@ -83,6 +85,16 @@ VdbFileSummary receive_summary(WireReceiver& receiver) {
     return summary;
 }
 
+bool are_finite(const VdbVoxels& voxels) {
+    const auto is_finite = [](const auto& vector) {
+        return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
+    };
+    const glm::dvec3& edges = voxels.voxel_edges;
+    return is_finite(edges) && std::min({edges.x, edges.y, edges.z}) > 0 &&
+           is_finite(voxels.origin) && std::ranges::all_of(voxels.colors, is_finite) &&
+           std::ranges::all_of(voxels.values, [](float value) { return std::isfinite(value); });
+}
+
 VdbModel receive_model(WireReceiver& receiver, const InputFile& file) {
     VdbModel model;
     VdbVoxels& voxels = model.voxels;
@@ -94,6 +106,7 @@ VdbModel receive_model(WireReceiver& receiver, const InputFile& file) {
     const size_t count = voxels.cells.size();
     if (voxels.values.size() != count || (!voxels.colors.empty() && voxels.colors.size() != count))
         WireReceiver::fail();
+    if (!are_finite(voxels)) WireReceiver::fail();
     if (receiver.value<uint32_t>() != 0) model.grid = receive_grid(receiver, max_tree(file));
     return model;
 }

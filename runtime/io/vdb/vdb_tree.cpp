@@ -113,22 +113,26 @@ float finite(float value) {
     return value;
 }
 
-/// Fails where a tree of tiles and leaves that lie far apart, of which each takes up to 300 kB,
-/// outgrows a limit.
+/// Fails where a tree outgrows a limit.
 class TreeLimit {
   public:
     TreeLimit(const Tree& tree, uint64_t max_bytes) : tree_(tree), max_bytes_(max_bytes) {}
 
-    /// Call it before each tile and leaf. It looks at the tree each time that these have doubled.
+    /// Call it before each tile and leaf. It looks at the tree again where those that were added
+    /// since it did so may have reached the limit.
     void check() {
-        if (added_++ < next_) return;
-        next_ *= 2;
-        if (tree_.memUsage() > max_bytes_) WireReceiver::fail();
+        if (bytes_ + kLargest * ++added_ <= max_bytes_) return;
+        bytes_ = tree_.memUsage();
+        added_ = 1;
+        if (bytes_ + kLargest > max_bytes_) WireReceiver::fail();
     }
 
   private:
+    /// Of a leaf's branch: nodes of 32^3, 16^3 and 8^3 entries.
+    static constexpr uint64_t kLargest = 320'000;
+
     const Tree& tree_;
-    uint64_t max_bytes_, added_ = 0, next_ = 256;
+    uint64_t max_bytes_, bytes_ = 0, added_ = 0;
 };
 
 void receive_leaf(WireReceiver& receiver, Tree& tree) {

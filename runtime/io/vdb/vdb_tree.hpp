@@ -13,7 +13,7 @@ namespace voxelume::vdb {
 void send_grid(WireSender& sender, const openvdb::FloatGrid& grid);
 
 /// Throws HelperFailure for numbers that no grid has, values that aren't finite among them, and for
-/// a tree of more than `max_bytes` and what the next of them may take.
+/// a tree that takes more than `max_bytes`.
 openvdb::FloatGrid::Ptr receive_grid(WireReceiver& receiver, uint64_t max_bytes);
 
 }  // namespace voxelume::vdb

@@ -73,6 +73,8 @@ VdbModel take_voxels(const openvdb::GridPtrVec& grids, Surface surface, const In
         voxels.values.push_back(*value);
         if (!colors) continue;
         const openvdb::Vec3s color = colors->tree().getValue(cell);
+        if (!std::isfinite(color.x()) || !std::isfinite(color.y()) || !std::isfinite(color.z()))
+            readable.refuse("grid \"Cd\" has a value that is no number");
         voxels.colors.emplace_back(color.x(), color.y(), color.z());
     }
     return {std::move(voxels), grid};

@@ -18,7 +18,7 @@ constexpr uint32_t kWhite = 0xFFFFFF;
 CellBricks::CellBricks(const glm::ivec3& low, const glm::ivec3& high, const InputFile& file)
     : file_(file) {
     const glm::dvec3 size = glm::dvec3(high) - glm::dvec3(low) + 2.0 * kModelMargin;
-    check_voxel_span(size, file);
+    check_listed_span(size, file);
     frame_.size = glm::ivec3(size);
     first_ = low - kModelMargin;
     frame_.origin = glm::dvec3(first_);

@@ -10,15 +10,24 @@
 namespace voxelume {
 
 void check_voxel_span(const glm::dvec3& size, const InputFile& file) {
-    constexpr double kAlways = 1 << 25, kPerByte = 4096;
     const glm::dvec3 bricks = size / double(kBrickSize) + 1.0;
-    const double most = std::min(kMaxBricks, kAlways + kPerByte * double(file.size()));
     if (!(std::max({size.x, size.y, size.z}) <= kMaxVoxelsPerAxis &&
-          std::min({size.x, size.y, size.z}) >= 1 && bricks.x * bricks.y * bricks.z <= most))
+          std::min({size.x, size.y, size.z}) >= 1 && bricks.x * bricks.y * bricks.z <= kMaxBricks))
         file.refuse(
-            fmt::format("its voxels span {} x {} x {}, at most {} along each axis and, in a file "
-                        "of {} bytes, {} bricks of 16 in all are possible",
-                        size.x, size.y, size.z, kMaxVoxelsPerAxis, file.size(), most));
+            fmt::format("its voxels span {} x {} x {}, at most {} along each axis and {} "
+                        "bricks of 16 in all are possible",
+                        size.x, size.y, size.z, kMaxVoxelsPerAxis, kMaxBricks));
+}
+
+void check_listed_span(const glm::dvec3& size, const InputFile& file) {
+    check_voxel_span(size, file);
+    const glm::dvec3 bricks = size / double(kBrickSize) + 1.0;
+    const double most = double(1 << 25) + 4096.0 * double(file.size());
+    if (bricks.x * bricks.y * bricks.z > most)
+        file.refuse(
+            fmt::format("its voxels span {} x {} x {}, and {} bricks of 16 are possible in a file "
+                        "of {} bytes",
+                        size.x, size.y, size.z, most, file.size()));
 }
 
 void check_voxel_edge(const glm::dvec3& voxel_edge, const glm::dvec3& origin,
@@ -41,7 +50,7 @@ void check_stored_bricks(size_t stored, const InputFile& file) {
 }
 
 void check_listed_bricks(size_t stored, const InputFile& file) {
-    const size_t most = std::min<uint64_t>(kMaxStoredBricks, 8192 + 4 * file.size());
+    const size_t most = std::min<uint64_t>(kMaxStoredBricks, (1 << 14) + 4 * file.size());
     if (stored > most)
         file.refuse(
             fmt::format("its voxels lie in more than {0} bricks of 16 x 16 x 16, and {0} are "

@@ -14,7 +14,7 @@ inline constexpr double kMaxBricks = 1 << 28;
 inline constexpr size_t kMaxStoredBricks = 1 << 18;  ///< 4 GiB of colours
 
 /// Throws Error::input for more voxels along an axis, or for more bricks, stored or not, than a
-/// model may have. A small file may have fewer bricks: an index of them takes memory.
+/// model may have.
 void check_voxel_span(const glm::dvec3& size, const InputFile& file);
 
 /// Throws Error::input for voxels that are shorter than 1e-9 m, or too short to tell neighbours
@@ -25,8 +25,11 @@ void check_voxel_edge(const glm::dvec3& voxel_edge, const glm::dvec3& origin,
 /// Throws Error::input for more stored bricks than a model may have.
 void check_stored_bricks(size_t stored, const InputFile& file);
 
-/// The same for a format that lists voxels: for each byte, it has at most four bricks more than
-/// 8,192. A solid cube of 512 voxels along each side takes 8 KB as runs, and has 32,768 bricks.
+/// The same two for formats that list voxels or runs of them, where a small file has fewer: an
+/// index of 2^25 bricks and 4,096 more for each byte, and 2^14 stored ones and four more for each
+/// byte, which is 256 MB of colours and 64 KB for each byte. A solid cube of 512 voxels along each
+/// side takes 8 KB as runs, and has 35,937 bricks.
+void check_listed_span(const glm::dvec3& size, const InputFile& file);
 void check_listed_bricks(size_t stored, const InputFile& file);
 
 }  // namespace voxelume

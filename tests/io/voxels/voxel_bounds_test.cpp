@@ -54,9 +54,10 @@ TEST_F(VoxelBoundsTest, QubicleCellsAreCountedBeforeTheyAreSet) {
 TEST_F(VoxelBoundsTest, BricksAreCountedBeforeMemoryIsTaken) {
     // 16384 x 16384 cells lie in 2^20 bricks of 16 KiB.
     const std::string slice = qb_of(1, 1) + full_slice(16384);
-    EXPECT_THAT(refusal("a.qb", slice),
-                HasSubstr("more than 8452 bricks of 16 x 16 x 16, and 8452 are possible in a file "
-                          "of 65 bytes"));
+    EXPECT_THAT(
+        refusal("a.qb", slice),
+        HasSubstr("more than 16644 bricks of 16 x 16 x 16, and 16644 are possible in a file "
+                  "of 65 bytes"));
     const std::string large = slice + std::string(1 << 16, '\0');  // what follows isn't read
     EXPECT_THAT(refusal("a.qb", large), HasSubstr("262144 are possible"));
     put_bytes(folder / "b", "x");
@@ -77,9 +78,11 @@ TEST_F(VoxelBoundsTest, SmallFilesDontSpanIndicesOfGigabytes) {
         return std::string(1, '\0') + bytes_of_all(1u, 1u, 1u, place, place, place, 0xFF0000FFu);
     };
     EXPECT_THAT(refusal("a.qb", qb_of(0, 2) + cell_at(0) + cell_at(9000)),
-                HasSubstr("in a file of 82 bytes, 33890304 bricks"));
+                HasSubstr("33890304 bricks of 16 are possible in a file of 82 bytes"));
     put_bytes(folder / "b.qb", qb_of(0, 2) + cell_at(0) + cell_at(4000));
     EXPECT_EQ(read_voxel_model(folder / "b.qb", Surface::cubes, 0, {}).voxels(), 2u);
+    put_bytes(folder / "c.qb", qb_of(1, 1) + full_slice(1500));
+    EXPECT_EQ(read_voxel_model(folder / "c.qb", Surface::cubes, 0, {}).voxels(), 2250000u);
 }
 
 TEST_F(VoxelBoundsTest, BinvoxRunsAreAddedUpFirst) {
