@@ -6,7 +6,8 @@ set -euo pipefail
 cd "$1"
 format=${3#*_fuzz_}
 mkdir -p "corpus/$format" "seeds/$format"
-options=(-max_total_time="$2" -malloc_limit_mb=640 -rss_limit_mb=2048 -timeout=60 -print_final_stats=1)
+options=(-seed="${VXL_FUZZ_SEED:-25}" -max_total_time="$2" -timeout=60 -print_final_stats=1
+    -malloc_limit_mb=640 -rss_limit_mb=2048)
 [ ! -f "seeds/$format.dict" ] || options+=(-dict="seeds/$format.dict")
 # Freed memory is kept back for 8 MB, not 256, and stays with the process: up to 1.5 times as many
 # runs a second.
