@@ -154,7 +154,7 @@ bool walk_part(Walk& walk, ExrExtent& extent) {
     Part part;
     std::set<std::string> names;
     for (; !name.empty(); name = walk.name()) {
-        // Of two, one of OpenEXR's libraries takes the first, and one the last.
+        // OpenEXR's two libraries would take different ones: the first and the last.
         if (!names.insert(name).second)
             walk.fail(fmt::format("it has its attribute {} twice", name));
         const std::string type = walk.name();

@@ -128,7 +128,8 @@ class TreeLimit {
     }
 
   private:
-    /// Of a leaf's branch: nodes of 32^3, 16^3 and 8^3 entries.
+    /// The most that a tile or leaf adds, in bytes: its branch has nodes of 32^3, 16^3 and 8^3
+    /// entries, of 8, 8 and 4 bytes, and their masks.
     static constexpr uint64_t kLargest = 320'000;
 
     const Tree& tree_;
