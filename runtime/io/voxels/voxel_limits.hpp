@@ -25,10 +25,10 @@ void check_voxel_edge(const glm::dvec3& voxel_edge, const glm::dvec3& origin,
 /// Throws Error::input for more stored bricks than a model may have.
 void check_stored_bricks(size_t stored, const InputFile& file);
 
-/// The same two for formats that list voxels or runs of them, where a small file has fewer: an
-/// index of 2^25 bricks and 4,096 more for each byte, and 2^14 stored ones and four more for each
-/// byte, which is 256 MB of colours and 64 KB for each byte. A solid cube of 512 voxels along each
-/// side takes 8 KB as runs, and has 35,937 bricks.
+/// These two check the same for formats that list voxels or runs of them, where a small file may
+/// have fewer. Its index may have 2^25 bricks and 4,096 more for each byte. It may store 2^14
+/// bricks and four more for each byte, which are 256 MB of colours and 64 KB for each byte. A solid
+/// cube of 512 voxels along each side takes 8 KB as runs, and has 35,937 bricks.
 void check_listed_span(const glm::dvec3& size, const InputFile& file);
 void check_listed_bricks(size_t stored, const InputFile& file);
 
