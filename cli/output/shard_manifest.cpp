@@ -35,9 +35,9 @@ Json json_of(const ShardRows& rows) {
 
 ShardRows rows_of(const Json& json) {
     ShardRows rows;
-    rows.first = json.at("first").get<int>();
-    rows.end = json.at("end").get<int>();
-    rows.height = json.at("height").get<int>();
+    rows.first = json_integer<int>(json.at("first"));
+    rows.end = json_integer<int>(json.at("end"));
+    rows.height = json_integer<int>(json.at("height"));
     if (!json.at("file").is_null()) rows.file = file_of(json.at("file"));
     rows.hash = json.at("hash").get<std::string>();
     rows.outputs = json.at("outputs").get<std::vector<std::string>>();
@@ -46,20 +46,21 @@ ShardRows rows_of(const Json& json) {
 
 ShardManifest manifest_of(const Json& json) {
     ShardManifest manifest;
-    manifest.shard = {json.at("part").get<int>(), json.at("of").get<int>()};
+    manifest.shard = {json_integer<int>(json.at("part")), json_integer<int>(json.at("of"))};
     manifest.scene = json.at("scene").get<std::string>();
-    manifest.frames = json.at("frames").get<std::vector<int>>();
+    for (const Json& frame : json.at("frames").get_ref<const Json::array_t&>())
+        manifest.frames.push_back(json_integer<int>(frame));
     manifest.outputs = json.at("outputs").get<std::vector<std::string>>();
     manifest.options.exposure = json.at("exposure").get<double>();
     manifest.options.view_transform =
         parse_view_transform(json.at("view_transform").get<std::string>(), "view_transform");
-    manifest.options.png_bits = json.at("png_bits").get<int>();
+    manifest.options.png_bits = json_integer<int>(json.at("png_bits"));
     manifest.options.float_color = json.at("float").get<bool>();
     manifest.options.multi_part = json.at("multi_part").get<bool>();
     manifest.options.channels = parse_channels(json.at("channels").get<std::string>(), "channels");
     for (const Json& frame : json.at("own")) {
         ShardManifest::Frame& own = manifest.own.emplace_back();
-        own.frame = frame.at("frame").get<int>();
+        own.frame = json_integer<int>(frame.at("frame"));
         for (const Json& file : frame.at("files")) own.files.push_back(file_of(file));
     }
     if (json.contains("rows")) manifest.rows = rows_of(json.at("rows"));

@@ -11,6 +11,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/input_file.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/image/exr.hpp"
@@ -193,9 +194,9 @@ v1::Facts facts_of(const Report& report, const std::string& name) {
     } else if (report.is_boolean()) {
         facts.value = report.get<bool>();
     } else if (report.is_number_unsigned()) {
-        facts.value = report.get<uint64_t>();
+        facts.value = json_integer<uint64_t>(report);
     } else if (report.is_number_integer()) {
-        facts.value = report.get<int64_t>();
+        facts.value = json_integer<int64_t>(report);
     } else if (report.is_number()) {
         facts.value = report.get<double>();
     } else if (report.is_string()) {

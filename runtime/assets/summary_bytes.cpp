@@ -2,7 +2,7 @@
 // Summaries of meshes as CBOR, in which numbers keep all their bits.
 #include "runtime/assets/summary_bytes.hpp"
 
-#include <nlohmann/json.hpp>
+#include "runtime/base/json_text.hpp"
 
 namespace voxelume {
 namespace {
@@ -53,23 +53,28 @@ nlohmann::json json_of(const MeshPaint& paint) {
 }
 
 MeshPaint read_paint(const nlohmann::json& json) {
-    return {json.at(0).get<uint64_t>(), json.at(1).get<bool>(),     json.at(2).get<uint64_t>(),
-            json.at(3).get<uint64_t>(), json.at(4).get<uint64_t>(), json.at(5).get<bool>(),
-            json.at(6).get<bool>(),     json.at(7).get<uint64_t>()};
+    return {json_integer<uint64_t>(json.at(0)),
+            json.at(1).get<bool>(),
+            json_integer<uint64_t>(json.at(2)),
+            json_integer<uint64_t>(json.at(3)),
+            json_integer<uint64_t>(json.at(4)),
+            json.at(5).get<bool>(),
+            json.at(6).get<bool>(),
+            json_integer<uint64_t>(json.at(7))};
 }
 
 MeshSummary read_summary(const nlohmann::json& json) {
     MeshSummary summary;
-    summary.triangles = json.at(0).get<uint64_t>();
+    summary.triangles = json_integer<uint64_t>(json.at(0));
     summary.surface = {vector_of(json.at(1).at(0)), vector_of(json.at(1).at(1))};
     summary.vertices = {vector_of(json.at(2).at(0)), vector_of(json.at(2).at(1))};
     summary.area = area_of(json.at(3).at(0));
     summary.min_area = area_of(json.at(3).at(1));
     summary.paint = read_paint(json.at(4));
-    summary.corners = json.at(6).get<uint64_t>();
+    summary.corners = json_integer<uint64_t>(json.at(6));
     summary.group_names = texts_of(json.at(5));
     const nlohmann::json& topology = json.at(7);
-    summary.topology = {topology.at(0).get<uint64_t>(), topology.at(1).get<double>(),
+    summary.topology = {json_integer<uint64_t>(topology.at(0)), topology.at(1).get<double>(),
                         topology.at(2).get<double>()};
     summary.material_libraries = texts_of(json.at(8).at(0));
     summary.missing_materials = texts_of(json.at(8).at(1));
@@ -78,7 +83,7 @@ MeshSummary read_summary(const nlohmann::json& json) {
     summary.has_normals = json.at(9).get<bool>();
     summary.longest_edge = json.at(10).get<double>();
     summary.notes = texts_of(json.at(11));
-    summary.strokes = json.at(12).get<uint64_t>();
+    summary.strokes = json_integer<uint64_t>(json.at(12));
     return summary;
 }
 

@@ -3,8 +3,10 @@
 // without a limit, a file of some hundred kilobytes exhausts the stack.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 namespace voxelume {
 
@@ -29,6 +31,19 @@ Json parse_json_text(std::string_view text, bool* is_too_deep = nullptr,
         if (is_too_deep) *is_too_deep = true;
         return Json(Json::value_t::discarded);
     }
+}
+
+/// The integer that a value is. Throws `Json::out_of_range` for any other value and for an integer
+/// that the type can't hold: the library's `get` converts all numbers, and C++ doesn't define what
+/// becomes of 1e100.
+template <class Integer, class Json>
+Integer json_integer(const Json& value) {
+    const bool is_in_range =
+        value.is_number_unsigned()
+            ? std::in_range<Integer>(value.template get<uint64_t>())
+            : value.is_number_integer() && std::in_range<Integer>(value.template get<int64_t>());
+    if (!is_in_range) throw Json::out_of_range::create(406, "not an integer in range", nullptr);
+    return value.template get<Integer>();
 }
 
 }  // namespace voxelume

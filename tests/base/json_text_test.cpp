@@ -42,5 +42,18 @@ TEST(JsonText, WhatIsNoJsonIsDiscarded) {
     EXPECT_TRUE(parse_json_text<Json>("null").is_null());
 }
 
+TEST(JsonText, IntegersAreTakenOnlyWhereTheirTypeHoldsThem) {
+    EXPECT_EQ(json_integer<int>(parse_json_text<Json>("-2147483648")), -2147483648);
+    EXPECT_EQ(json_integer<int>(parse_json_text<Json>("2147483647")), 2147483647);
+    EXPECT_EQ(json_integer<uint64_t>(parse_json_text<Json>("18446744073709551615")),
+              18446744073709551615u);
+    for (const char* text : {"2147483648", "-2147483649", "18446744073709551615", "1.0", "8.9e100",
+                             "-1e300", "true", "null", "\"1\"", "[1]", "{}"})
+        EXPECT_THROW(json_integer<int>(parse_json_text<Json>(text)), Json::out_of_range) << text;
+    for (const char* text : {"-1", "18446744073709551616", "1e3"})
+        EXPECT_THROW(json_integer<uint64_t>(parse_json_text<Json>(text)), Json::out_of_range)
+            << text;
+}
+
 }  // namespace
 }  // namespace voxelume

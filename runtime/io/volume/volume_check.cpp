@@ -3,6 +3,7 @@
 
 #include "runtime/base/files/file_hash.hpp"
 #include "runtime/base/files/stamp.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/volume/volume_json.hpp"
 
@@ -20,7 +21,7 @@ VolumeJson header_of_data(const VolumePath& path) {
 
 /// True if the data have the bytes of an entry from `offset` on.
 bool has_bytes(const InputFile& data, uint64_t offset, const VolumeJson& entry) {
-    const auto bytes = entry.at("bytes").get<uint64_t>();
+    const auto bytes = json_integer<uint64_t>(entry.at("bytes"));
     if (offset > data.size() || bytes > data.size() - offset) return false;
     return entry.at("xxh3_64") == fmt::format("{:016x}", hash_of_bytes(data, offset, bytes));
 }
@@ -31,7 +32,7 @@ bool is_as_described(const InputFile& data, const VolumeJson& header) {
     uint64_t end = 0;
     for (const VolumeJson& array : header.at("arrays")) {
         if (array.at("offset") != end || !has_bytes(data, end, array)) return false;
-        end += array.at("bytes").get<uint64_t>();
+        end += json_integer<uint64_t>(array.at("bytes"));
     }
     return end == data.size();
 }

@@ -2,7 +2,6 @@
 #include "runtime/io/volume/volume_frame_text.hpp"
 
 #include <array>
-#include <climits>
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/error.hpp"
@@ -28,10 +27,9 @@ Json numbers(const Vector& v) {
     throw Json::other_error::create(501, key, nullptr);
 }
 
-/// The library would convert any number, and what is too large for its type is undefined then.
 void take_number(const Json& value, const char* key, int& number) {
-    if (!value.is_number_unsigned() || value.get<uint64_t>() > INT_MAX) refuse(key);
-    number = value.get<int>();
+    number = json_integer<int>(value);
+    if (number < 0) refuse(key);
 }
 
 void take_number(const Json& value, const char*, double& number) {

@@ -37,7 +37,7 @@ class RawArray {
         const VolumeJson& offset = entry.at("offset");
         if (!offset.is_number_unsigned())
             file.refuse(fmt::format("no array begins at {}", offset.dump()));
-        position_ = offset.get<uint64_t>();
+        position_ = json_integer<uint64_t>(offset);
         checksum_ = entry.at("xxh3_64").get<std::string>();
         if (entry.at("name") != name || entry.at("bytes") != bytes || position_ > file.size() ||
             bytes > file.size() - position_)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/base/frame_path.hpp"
+#include "runtime/base/json_text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/volume/volume_json.hpp"
@@ -94,8 +95,8 @@ std::vector<VolumePath> slice_files_of(const VolumePath& pattern) {
     const VolumeJson json = read_header(header, VolumeFormat::slices);
     if (json.empty()) return {};
     const VolumeJson count = json.value("/shape/2"_json_pointer, VolumeJson());
-    constexpr int64_t kMaxSlices = 65536;  // number of slices of the largest display
-    const int64_t slices = count.is_number_integer() ? count.get<int64_t>() : 0;
+    constexpr uint64_t kMaxSlices = 65536;  // number of slices of the largest display
+    const uint64_t slices = count.is_number_unsigned() ? json_integer<uint64_t>(count) : 0;
     if (slices < 1 || slices > kMaxSlices) return {};
     std::vector<VolumePath> files;
     files.reserve(size_t(slices) + 1);

@@ -99,7 +99,7 @@ glm::ivec2 size_of(const Json& size, const Place& place) {
     };
     if (!size.is_array() || size.size() != 2 || !is_side(size[0]) || !is_side(size[1]))
         place.refuse("\"size\" is {}, not two numbers of pixels like [1024, 1024]", size.dump());
-    return {size[0].get<int>(), size[1].get<int>()};
+    return {json_integer<int>(size[0]), json_integer<int>(size[1])};
 }
 
 GlobalRow global_row_of(const Json& json, const Place& place) {
