@@ -8,8 +8,8 @@
 #include "lib/packets/sight_rays.h"
 #include "shared/scene.h"
 
-/// Finds the closest hits of the coherent rays 0 .. count-1. Arrays hold a multiple of 16 rays.
-/// Hits don't depend on whether there are beams.
+/// Finds the closest hits of the rays 0 .. count-1: coherent ones, and all where lanes aren't
+/// refilled. Arrays hold a multiple of 16 rays. Hits don't depend on whether there are beams.
 kernel void trace_closest(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * (VXL_LANES * VXL_PACKETS_INTERLEAVED);
     if (first >= count) return;
@@ -35,7 +35,7 @@ kernel void trace_closest(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint count
     store_packet(&q, &f);
 }
 
-#if VXL_PATHS
+#if VXL_REFILLS
 /// Finds the closest hits of the incoherent rays 0 .. count-1, which are reflected or refracted.
 ///
 /// A work-item traces the rays of VXL_PACKETS(VXL_LANES) packets in two interleaved packets. Lanes

@@ -68,7 +68,10 @@ typedef struct SolidShape {
                         // direction from the lower rim divided by its squared length (both as
                         // outwards, along Y), then the growth of its radius along Y;
                         // ellipsoid: half axes divided by the shortest, and 1 / the shortest
-    float unused[2];    // 0
+    float reach;   // in its first record, voxels: all of the solid's surface in the grid is nearer
+                   // to this record's centre, with room for rounding; infinity for what lies
+                   // outside of a solid
+    float unused;  // 0
 } SolidShape;
 
 // Compilation fails, in both languages, if the record's size differs from what the text above says.

@@ -35,12 +35,14 @@
 // The number of packets of incoherent rays that a work-item traces, one after another.
 #define VXL_PACKETS(lanes) ((lanes) > 1 ? 16u : 1u)
 // 1 if lanes are refilled with further rays when theirs end, which is done in scenes with paths. A
-// lane's instances come after its walk in the world, in which other lanes may still be.
-#define VXL_REFILLS_LANES(paths, instances) ((paths) && !(instances))
+// lane's instances come after its walk in the world, in which other lanes may still be. Where all
+// solids are tested at once, there is hardly a walk to wait for.
+#define VXL_REFILLS_LANES(paths, instances, solids_ahead) \
+    ((paths) && !(instances) && !(solids_ahead))
 // 1 if shadow rays' lanes are refilled. This is also done where surface tests take long, since rays
 // that pass near a surface meet many voxels.
-#define VXL_REFILLS_SHADOW_LANES(paths, smooth, exact, instances) \
-    (((paths) || (smooth) || (exact)) && !(instances))
+#define VXL_REFILLS_SHADOW_LANES(paths, smooth, exact, instances, solids_ahead) \
+    (((paths) || (smooth) || (exact)) && !(instances) && !(solids_ahead))
 
 // The number of packets whose steps are interleaved in one work-item. Where surfaces are cubes, a
 // packet's time is that of its steps, each of which is a long chain of dependent operations.

@@ -43,7 +43,9 @@ constexpr KernelRow kKernels[] = {
     {"trace.cl", {"begin_inside"}, [](const Features& f) { return f.observer_in_medium; }},
     {"trace.cl",
      {"trace_scattered"},
-     [](const Features& f) { return VXL_REFILLS_LANES(f.paths, f.instances) != 0; }},
+     [](const Features& f) {
+         return VXL_REFILLS_LANES(f.paths, f.instances, f.solids_ahead) != 0;
+     }},
     {"shade.cl", {"shade_surface"}, always},
     {"light.cl", {"add_light"}, [](const Features& f) { return !f.global || !f.area_samples; }},
     {"sky_light.cl", {"add_sky_light"}, always},

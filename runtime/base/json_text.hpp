@@ -33,16 +33,20 @@ Json parse_json_text(std::string_view text, bool* is_too_deep = nullptr,
     }
 }
 
+/// True if a value is an integer that the type can hold.
+template <class Integer, class Json>
+bool is_json_integer(const Json& value) {
+    if (value.is_number_unsigned()) return std::in_range<Integer>(value.template get<uint64_t>());
+    return value.is_number_integer() && std::in_range<Integer>(value.template get<int64_t>());
+}
+
 /// The integer that a value is. Throws `Json::out_of_range` for any other value and for an integer
 /// that the type can't hold: the library's `get` converts all numbers, and C++ doesn't define what
 /// becomes of 1e100.
 template <class Integer, class Json>
 Integer json_integer(const Json& value) {
-    const bool is_in_range =
-        value.is_number_unsigned()
-            ? std::in_range<Integer>(value.template get<uint64_t>())
-            : value.is_number_integer() && std::in_range<Integer>(value.template get<int64_t>());
-    if (!is_in_range) throw Json::out_of_range::create(406, "not an integer in range", nullptr);
+    if (!is_json_integer<Integer>(value))
+        throw Json::out_of_range::create(406, "not an integer in range", nullptr);
     return value.template get<Integer>();
 }
 

@@ -54,6 +54,7 @@ struct BrickGrid {
     Buffer<uint32_t> normals;      ///< 4096 per slot: the normals of the surface that cubes stand
                                    ///< for, see shared/normal.h; empty if no cube has one
     bool transparent = false;      ///< true if some voxel's colour isn't opaque
+    bool cubes = true;             ///< false if `attributes` are known to make no voxel a cube
 
     // Exact surfaces: voxel v of slot s lists primitives[first[s*4096+v] .. first[s*4096+v+1]).
     Buffer<uint32_t> primitive_first;  ///< 4096 per slot + 1
@@ -145,6 +146,7 @@ struct Pyramid {
     Buffer<uint32_t> colors;       ///< one per voxel
     Buffer<uint32_t> normals;      ///< one per voxel, as in BrickGrid
     bool transparent = false;      ///< true if some of the voxels aren't opaque
+    bool cubes = true;             ///< as in BrickGrid
     Buffer<uint32_t> fields;     ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
     uint32_t listed_fields = 0;  ///< number of records of fields, attributes and colours behind
                                  ///< those of voxels: for voxels that several surfaces pass

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 
+#include "kernels/shared/solid.h"
+
 namespace voxelume {
 
 PyramidShape shape_of(const Pyramid& pyramid) {
@@ -42,8 +44,9 @@ void bind(KernelArguments& to, const Pyramid& pyramid) {
            pyramid.attributes, pyramid.attribute, pyramid.colors, pyramid.normals, pyramid.fields,
            pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
            pyramid.triangle_attributes, pyramid.triangle_normals, pyramid.triangle_textures,
-           pyramid.textures, pyramid.solids, pyramid.order, pyramid.instances.records,
-           pyramid.instances.nodes, pyramid.instances.materials);
+           pyramid.textures, pyramid.solids, uint32_t(pyramid.solids.size() / VXL_SOLID_WORDS),
+           pyramid.order, pyramid.instances.records, pyramid.instances.nodes,
+           pyramid.instances.materials);
 }
 
 }  // namespace voxelume

@@ -54,7 +54,7 @@ std::string bytes_of_pyramid(const Pyramid& pyramid) {
         pyramid.leaf_count, pyramid.voxel_count, pyramid.attribute,
         uint32_t(pyramid.transparent) | uint32_t(pyramid.texture_alpha) << 1 |
             uint32_t(pyramid.texture_maps) << 2 | uint32_t(pyramid.has_chains) << 3 |
-            pyramid.chain_depth << 4,
+            uint32_t(pyramid.cubes) << 4 | pyramid.chain_depth << 5,
         pyramid.listed_fields};
     return *packed_bytes({pyramid.frame, counts}, pyramid_buffers(pyramid));
 }
@@ -71,7 +71,8 @@ std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view b
     pyramid.texture_alpha = (header->counts[3] & 2) != 0;
     pyramid.texture_maps = (header->counts[3] & 4) != 0;
     pyramid.has_chains = (header->counts[3] & 8) != 0;
-    pyramid.chain_depth = std::min(header->counts[3] >> 4, uint32_t(kMaxBracketDepth));
+    pyramid.cubes = (header->counts[3] & 16) != 0;
+    pyramid.chain_depth = std::min(header->counts[3] >> 5, uint32_t(kMaxBracketDepth));
     pyramid.listed_fields = header->counts[4];
     const bool fits = pyramid.leaves.size() == size_t(pyramid.leaf_count) * 2 &&
                       pyramid.leaf_voxels.size() == pyramid.leaf_count;

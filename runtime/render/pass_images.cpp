@@ -17,6 +17,7 @@ Features of_hits(const Features& all) {
     features.smooth = all.smooth;
     features.triangles = all.triangles;
     features.solids = all.solids;
+    features.solids_ahead = all.solids_ahead;
     features.field_lists = all.field_lists;
     features.field_chains = all.field_chains;
     features.chain_depth = all.chain_depth;

@@ -15,6 +15,7 @@ Defines defines_of_voxels(const Features& f) {
             {"VXL_VOXEL_NORMALS", f.voxel_normals},
             {"VXL_RESAMPLED_CUBES", f.resampled_cubes},
             {"VXL_SOLIDS", f.solids},
+            {"VXL_SOLIDS_AHEAD", f.solids_ahead},
             {"VXL_SOLID_KINDS", f.solid_kinds},
             {"VXL_FIELD_LISTS", f.field_lists},
             {"VXL_FIELD_CHAINS", f.field_chains},

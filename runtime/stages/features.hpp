@@ -15,6 +15,7 @@ struct Features {
     bool voxel_normals = false;    ///< some cube has the normal of the surface it stands for
     bool resampled_cubes = false;  ///< some cube with such a normal comes from another lattice
     bool solids = false;           ///< some voxel lists analytic solids
+    bool solids_ahead = false;     ///< few solids are all that rays can meet
     int solid_kinds = 0xFF;       ///< 1 << VXL_SOLID_* of kinds that may be present, except spheres
     bool field_lists = false;     ///< some voxel lists the distance fields in it
     bool field_chains = false;    ///< some listed fields belong to parts of a solid

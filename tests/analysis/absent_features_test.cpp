@@ -95,6 +95,7 @@ const std::set<std::string> kRemoved = {
     "lib/surface/smooth.h",         "lib/surface/field.h",
     "lib/light/filter.h",           "lib/traverse/instance_hit.h",
     "lib/solid/solid_hit.h",        "lib/surface/triangle.h",
+    "lib/surface/all_solids.h",     "lib/traverse/approach.h",
     "lib/surface/coincident.h",     "lib/solid/solid_ray.h",
     "lib/packets/begin_inside.h",   "lib/surface/glass_faces.h",
     "lib/surface/shading_normal.h", "lib/surface/paint.h",

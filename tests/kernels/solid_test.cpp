@@ -149,7 +149,8 @@ kernel void copy_fields(global const SolidShape* s, global uint* out) {
     for (int i = 0; i < 4; ++i) out[19 + i] = as_uint(s->size[i]);
     for (int i = 0; i < 2; ++i) out[23 + i] = as_uint(s->rounding[i]);
     for (int i = 0; i < 5; ++i) out[25 + i] = as_uint(s->derived[i]);
-    for (int i = 0; i < 2; ++i) out[30 + i] = as_uint(s->unused[i]);
+    out[30] = as_uint(s->reach);
+    out[31] = as_uint(s->unused);
 }
 )");
     const Buffer<uint32_t> in(device, "in", words), out(device, "out", words.size());

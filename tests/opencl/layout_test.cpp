@@ -45,7 +45,7 @@
     FA(unused, 3)
 #define SOLID_SHAPE_FIELDS \
     I(kind) I(operations) I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3) \
-    FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 5) FA(unused, 2)
+    FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 5) F(reach) F(unused)
 #define PATH_SAMPLING_FIELDS I(first_tile) I(tiles_x) I(samples) I(bounces) I(first_column) \
     I(first_row) I(first_sample)
 #define LIGHT_AREA_RECORD_FIELDS V(axis_x) V(axis_y)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packets of shadow rays on their way to their light.
 //
-// Where rays are incoherent, lanes take further rays as theirs end: a ray that has met a
+// Where rays are incoherent and walk, lanes take further rays as theirs end: a ray that has met a
 // transmitting surface continues behind it while others walk, and lanes whose rays have ended wait
 // until several have ended. Otherwise a packet would wait for the ray that meets the most surfaces.
 #ifndef VXL_SHADOW_PACKET_H
@@ -12,7 +12,7 @@
 #include "lib/traverse/ray_queue.h"
 
 #define VXL_REFILLS_SHADOWS \
-    VXL_REFILLS_SHADOW_LANES(VXL_PATHS, VXL_SMOOTH, VXL_EXACT, VXL_INSTANCES)
+    VXL_REFILLS_SHADOW_LANES(VXL_PATHS, VXL_SMOOTH, VXL_EXACT, VXL_INSTANCES, VXL_SOLIDS_AHEAD)
 #define VXL_SHADOW_PACKETS \
     (VXL_REFILLS_SHADOWS ? VXL_PACKETS(VXL_LANES) : VXL_FILTER ? 1u : VXL_PACKETS_INTERLEAVED)
 
@@ -188,8 +188,12 @@ static INLINED lane_int find_lights(const WorldView* world, const Surroundings* 
     Packet* packet = &f->packet;
     lane_int passing = active, arrived = (lane_int)0;
     while (lanes_any(passing)) {
-        packet->found = find_nearest(world, &packet->walk, packet->t_end, passing, !VXL_FILTER,
-                                     &packet->ray_state);
+        if (VXL_SOLIDS_AHEAD)  // the cell of the hit doesn't matter
+            packet->found = find_solid(&world->pyramid, &world->surface, &packet->walk,
+                                       packet->t_end, passing, &packet->ray_state);
+        else
+            packet->found = find_nearest(world, &packet->walk, packet->t_end, passing, !VXL_FILTER,
+                                         &packet->ray_state);
         const lane_int hit = packet->found.hit & passing;
         arrived |= passing & ~hit;
         if (!VXL_FILTER) break;

@@ -7,11 +7,13 @@
 #define VXL_PACKET_H
 
 #include "lib/lanes/work_item.h"
-#include "lib/surface/surfaces.h"
+#include "lib/surface/all_solids.h"
 #include "lib/traverse/ray_batch.h"
 
 // The number of idle lanes at which a packet takes further rays.
 #define VXL_REFILL ((VXL_LANES + 3) / 4)
+
+#define VXL_REFILLS VXL_REFILLS_LANES(VXL_PATHS, VXL_INSTANCES, VXL_SOLIDS_AHEAD)
 
 // Loads values of the rays that a packet's lanes hold. These are neighbours in memory, unless the
 // lanes were given their rays one by one.
@@ -19,22 +21,6 @@
     ((one_by_one) ? LANES_GATHER_FLOAT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
 #define VXL_RAY_UINTS(p, ray, one_by_one) \
     ((one_by_one) ? LANES_GATHER_UINT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
-
-/// The hit of a packet before its walk.
-static inline SurfaceHit no_hit_yet(void) {
-    SurfaceHit found;
-    found.hit = (lane_int)0;
-    found.t = (lane_float)INFINITY;
-    found.leaf = found.voxel = (lane_uint)0;
-    found.primitive = found.solid = (lane_uint)VXL_NO_PRIMITIVE;
-    found.level = (lane_float)0.0f;
-    found.within = (lane_int)0;
-    found.inside = (lane_uint)VXL_NO_MEDIUM;
-    found.in_body = found.exit = (lane_int)0;
-    found.behind = no_cube_behind();
-    found.instance = (lane_uint)VXL_NO_INSTANCE;
-    return found;
-}
 
 /// Moves the `walking` lanes one step: out of the empty block around them or, where their cell is
 /// occupied, to the `waiting` lanes. Lanes that leave the world or reach t_end are in neither mask.
@@ -100,6 +86,12 @@ static inline SurfaceHit find_first(const PyramidView* p, const SurfaceView* s, 
                                     lane_float t_end, lane_int active, const RayState* ray_state) {
     SurfaceHit found = no_hit_yet();
     lane_int walking = active & in_grid(p, w), waiting = (lane_int)0;
+    if (VXL_SOLIDS_AHEAD) {
+        found = find_solid(p, s, w, t_end, active, ray_state);
+        walking &= found.hit;
+        found.hit = (lane_int)0;
+        approach(p, w, found.t, walking);
+    }
     while (lanes_any(walking)) {
         while (lanes_any(walking)) walk_on(p, w, t_end, &found, &walking, &waiting);
         meet_surfaces(p, s, w, t_end, ray_state, &found, &walking, &waiting);
@@ -149,7 +141,8 @@ static inline RayState load_ray_state(const RayBatch* batch, uint count, lane_ui
     if (VXL_INSTANCES)
         ray_state.instance = LANES_GATHER_UINT(paths + VXL_PATH_INSTANCE * stride, ray);
     if (VXL_TRANSMISSION) {
-        if (VXL_SHARED_CUBES) ray_state.refracted = has_flag(flags, VXL_PATH_REFRACTED);
+        if (VXL_SHARED_CUBES || VXL_EXACT)
+            ray_state.refracted = has_flag(flags, VXL_PATH_REFRACTED);
         ray_state.goes_on = has_flag(flags, VXL_PATH_GOES_ON);
         if (lanes_any(ray_state.goes_on))
             ray_state.t_first = LANES_GATHER_FLOAT(batch->starts, ray);
@@ -210,7 +203,7 @@ static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint*
 static inline void set_out(const WorldView* world, const RayBatch* batch, uint count, Packet* f) {
     global const uint* paths = batch->paths;
     const uint stride = batch->stride;
-    f->walk = walk_of(batch->rays, stride, f->ray, VXL_PATHS);
+    f->walk = walk_of(batch->rays, stride, f->ray, VXL_REFILLS);
     f->ray_state = sight_ray_state();
     lane_uint flags = (lane_uint)0;
     if (VXL_PATHS) {
@@ -224,7 +217,7 @@ static inline void set_out(const WorldView* world, const RayBatch* batch, uint c
         resume_walk(&f->walk, &f->ray_state,
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL * stride, f->ray),
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL_Z * stride, f->ray), resuming);
-    f->t_end = VXL_RAY_FLOATS(batch->rays + VXL_RAY_END * stride, f->ray, VXL_PATHS);
+    f->t_end = VXL_RAY_FLOATS(batch->rays + VXL_RAY_END * stride, f->ray, VXL_REFILLS);
     const lane_int sent = LANE_MASK(f->ray < count) & LANE_MASK(f->t_end >= 0.0f);
     if (VXL_MIXED) find_mixed_mesh(world, sent, &f->ray_state);
     f->found = no_hit_yet();

@@ -5,6 +5,7 @@
 
 #include "lib/surface/cube_behind.h"
 #include "lib/traverse/medium_set.h"
+#include "shared/instance.h"
 #include "shared/trace.h"
 
 #define VXL_NO_OBJECT 0xFFFFFFFFu
@@ -53,6 +54,22 @@ static inline void take_voxel_hit(SurfaceHit* found, lane_float t, lane_int acce
     const lane_int closer = accepted & LANE_MASK(t < found->t);
     found->t = LANES_SELECT(closer, t, found->t);
     found->primitive = LANES_SELECT(closer, (lane_uint)VXL_NO_PRIMITIVE, found->primitive);
+}
+
+/// The hit of a packet before its walk.
+static inline SurfaceHit no_hit_yet(void) {
+    SurfaceHit found;
+    found.hit = (lane_int)0;
+    found.t = (lane_float)INFINITY;
+    found.leaf = found.voxel = (lane_uint)0;
+    found.primitive = found.solid = (lane_uint)VXL_NO_PRIMITIVE;
+    found.level = (lane_float)0.0f;
+    found.within = (lane_int)0;
+    found.inside = (lane_uint)VXL_NO_MEDIUM;
+    found.in_body = found.exit = (lane_int)0;
+    found.behind = no_cube_behind();
+    found.instance = (lane_uint)VXL_NO_INSTANCE;
+    return found;
 }
 
 #endif

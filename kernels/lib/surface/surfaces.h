@@ -3,11 +3,11 @@
 #ifndef VXL_SURFACES_H
 #define VXL_SURFACES_H
 
-#include "lib/solid/solid_surface.h"
 #include "lib/surface/coincident.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/field_chain.h"
 #include "lib/surface/mixed_mesh.h"
+#include "lib/surface/solid_in_world.h"
 #include "lib/surface/surface_hit.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/hit_attributes.h"
@@ -35,80 +35,18 @@ static inline void leave_body(SurfaceHit* found, const Walk* w, lane_int leaving
     take_voxel_hit(found, w->t, leaving);
 }
 
-/// The largest float below t.
-static inline lane_float float_before(lane_float t) {
-    const lane_int bits = LANES_AS_INT(t);
-    const lane_float next = LANES_AS_FLOAT(bits - 1 - (LANE_MASK(t < 0.0f) & -2));
-    return LANES_SELECT(LANE_MASK(t == 0.0f), (lane_float)-FLT_MIN, next);
-}
-
-/// Tests solid `number` of each lane in `tested`; hits in the world that are closer than *t replace
-/// it. Hits at t_first itself count only in the lanes of `counts_at_first`. `entering` lanes begin
-/// one unit of t before their origin.
-static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
-                                            const Walk* w, lane_uint number,
-                                            const RayState* ray_state, const RayBeginning* from,
-                                            lane_int tested, lane_int from_solid,
-                                            lane_int counts_at_first, lane_int entering,
-                                            lane_float* t) {
-    lane_int closer = (lane_int)0;
-    const lane_int nothing = (lane_int)0;
-    const lane_int early = tested & entering;
-    if (lanes_any(early)) {
-        const SolidRay ray = {w->ox - w->dx, w->oy - w->dy, w->oz - w->dz, w->dx, w->dy, w->dz};
-        lane_float from_before = (lane_float)INFINITY;
-        const lane_int met = hit_solids(s->solids, number, &ray, (lane_float)0.0f, (lane_float)0.0f,
-                                        nothing, nothing, early, &from_before);
-        const lane_float at = LANES_SELECT(met, from_before - 1.0f, (lane_float)0.0f);
-        closer = met & is_in_world(p, w, at) & LANE_MASK(at < *t);
-        *t = LANES_SELECT(closer, at, *t);
-    }
-    const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
-    const lane_int left = tested & ~closer;
-    lane_float at = *t;
-    lane_int met = (lane_int)0;
-    if (lanes_any(left)) {
-        lane_int inside = from_solid & ray_state->within_source;
-        lane_int known = from_solid;
-        lane_float t_first = ray_state->t_first;
-        if (VXL_TRANSMISSION) {
-            t_first = LANES_SELECT(counts_at_first, float_before(t_first), t_first);
-            const lane_int holds =
-                medium_set_holds(&ray_state->media, solid_attributes(s->solids, number));
-            known |= holds;
-            inside |= holds & ~from_solid;
-        }
-        lane_float t_clear = t_first;
-        if (may_coincide(s)) {
-            const lane_float none = (lane_float)0.0f;
-            t_clear += LANES_SELECT(from->begins & ~from_solid, from->slack, none);
-            t_first -= LANES_SELECT(from->goes_on & ~from_solid, from->slack, none);
-        }
-        met = hit_solids(s->solids, number, &ray, t_first, t_clear, known, inside, left, &at);
-    }
-    met &= is_in_world(p, w, LANES_SELECT(met, at, (lane_float)0.0f));
-    *t = LANES_SELECT(met, at, *t);
-    return closer | met;
-}
-
-/// Mask: among surfaces that a ray meets at the same t, the primitive comes after the ray's source.
-/// Fields come first, then triangles and solids by their numbers.
-static inline lane_int comes_after(lane_uint primitive, lane_uint source) {
-    lane_int after = LANE_MASK(primitive > source);
-    if (VXL_FIELD_LISTS) after |= LANE_MASK((source >> 30) == 1u);
-    return after;
-}
-
 /// Tests the primitives that the `tested` lanes' voxels list. A primitive may be hit outside the
-/// voxel that lists it; the hit counts once the walk has come that far.
+/// voxel that lists it; the hit counts once the walk has come that far. Walks that were brought to
+/// their hits by find_solid test nothing.
 ///
 /// Where a ray enters the world, a surface exactly on the world's side may be met just before the
-/// ray's rounded origin. There, hits behind the origin count as well, as long as they lie in the
-/// world. A ray that continues meets surfaces at the same t as its last one in the order of their
-/// numbers.
+/// ray's rounded origin. There, hits on triangles behind the origin count as well, as long as they
+/// lie in the world, and hits on solids as hit_solids_in_world says. A ray that continues meets
+/// surfaces at the same t as its last one in the order of their numbers.
 static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                  lane_uint voxel, lane_int tested, const RayState* ray_state,
                                  SurfaceHit* found) {
+    if (VXL_SOLIDS_AHEAD) return tested & LANE_MASK(found->t <= exit_time(w));
     const lane_int entering = LANE_MASK(w->t == 0.0f) & LANE_MASK(w->axis != 3);
     const lane_float t_min = LANES_SELECT(entering, (lane_float)-INFINITY, ray_state->t_first);
     const RayShear shear = ray_shear(w);
@@ -123,10 +61,9 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
             LANES_AS_UINT(listing);
         const lane_int of_source = LANE_MASK(primitive == ray_state->source);
         const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
-        lane_int closer = (lane_int)0, counts_at_first = (lane_int)0;
+        const lane_int counts_at_first = counts_again(ray_state, primitive);
+        lane_int closer = (lane_int)0;
         lane_float at = found->t + from.slack;
-        if (VXL_TRANSMISSION)
-            counts_at_first = ray_state->goes_on & comes_after(primitive, ray_state->source);
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~(is_solid | of_source);
             if (!VXL_SOLIDS || lanes_any(triangle)) {
@@ -149,9 +86,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
                     p, s, w, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid), ray_state,
                     &from, solid, of_source, counts_at_first, entering, &at);
         }
-        closer = comes_first(s, ray_state, primitive, at, from.slack, closer, found);
-        found->t = LANES_SELECT(closer, at, found->t);
-        found->primitive = LANES_SELECT(closer, primitive, found->primitive);
+        take_primitive(s, ray_state, primitive, at, from.slack, closer, found);
         next += 1u;
         listing &= LANE_MASK(next < end);
     }

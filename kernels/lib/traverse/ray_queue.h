@@ -75,6 +75,10 @@ static inline Slots reserve_slots(lane_int wanted, global uint* count) {
 }
 
 static inline void put_uint(global uint* to, lane_uint value, const Slots* slots) {
+    if (slots->count == VXL_LANES) {
+        LANES_STORE(value, to, slots->first);
+        return;
+    }
     uint values[VXL_LANES];
     LANES_STORE(value, values, 0);
     for (uint i = 0; i < slots->count; ++i) to[slots->first + i] = values[slots->lane[i]];

@@ -75,6 +75,16 @@ static inline lane_int is_in_world(const PyramidView* p, const Walk* w, lane_flo
            LANE_MASK(y <= (float)p->size_y + bound) & LANE_MASK(z <= (float)p->size_z + bound);
 }
 
+/// Mask: the ray's point at `t` is in the walk's present cell, or outside it by no more than
+/// rounding.
+static inline lane_int is_in_cell(const PyramidView* p, const Walk* w, lane_float t) {
+    const float bound = p->plane_bound + 0.5f;  // from the cell's middle
+    const lane_float x = fma(w->dx, t, w->ox) - (LANES_FLOAT(w->x) + 0.5f),
+                     y = fma(w->dy, t, w->oy) - (LANES_FLOAT(w->y) + 0.5f),
+                     z = fma(w->dz, t, w->oz) - (LANES_FLOAT(w->z) + 0.5f);
+    return LANE_MASK(fmax(fabs(x), fmax(fabs(y), fabs(z))) <= bound);
+}
+
 /// The distance from the origin to a plane along one axis, in fixed point, positive ahead.
 static inline lane_long plane_distance(lane_int plane, lane_float o, lane_int positive,
                                        float fixed_point) {

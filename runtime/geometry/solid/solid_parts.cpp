@@ -98,9 +98,10 @@ size_t count_undivided(const std::vector<Solid>& cuts) {
     return size_t(std::ranges::count_if(parts_behind_first(rest), &SolidPart::is_undivided));
 }
 
-uint32_t count_nodes(const Solid& solid) {
-    uint32_t count = 1;
-    for (const Solid& part : solid.parts) count += count_nodes(part);
+uint32_t count_shapes(const Solid& solid) {
+    if (!is_combination(solid.kind)) return 1;
+    uint32_t count = 0;
+    for (const Solid& part : solid.parts) count += count_shapes(part);
     return count;
 }
 

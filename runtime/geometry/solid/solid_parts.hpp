@@ -31,7 +31,7 @@ size_t count_undivided(const Solid& solid);
 /// Counts the same for solids that are taken away from a mesh, which comes first in the formula.
 size_t count_undivided(const std::vector<Solid>& cuts);
 
-/// The nodes of a solid's tree.
-uint32_t count_nodes(const Solid& solid);
+/// The number of shapes of which a solid consists.
+uint32_t count_shapes(const Solid& solid);
 
 }  // namespace voxelume

@@ -11,6 +11,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/geometry/solid/shape_map.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 
 namespace voxelume {
 namespace {
@@ -95,6 +96,53 @@ SourceShape source_shape(const Solid& solid, const glm::dmat4& frame_from_shape,
     return source;
 }
 
+/// The radius of the ball around a shape, in its own space.
+double radius_of(const SolidShape& shape) {
+    const auto [x, y, z, unused] = shape.size;
+    switch (shape.kind & VXL_SOLID_KIND_MASK) {
+        case VXL_SOLID_SPHERE:
+            return x;
+        case VXL_SOLID_ELLIPSOID:
+            return std::max({x, y, z});
+        case VXL_SOLID_BOX:
+            return std::hypot(x, y, z);
+        case VXL_SOLID_CYLINDER:
+            return std::hypot(x, y);
+        case VXL_SOLID_CONE:
+            return std::hypot(std::max(x, z), y);
+        case VXL_SOLID_TORUS:
+        case VXL_SOLID_CAPSULE:
+            return x + y;
+        default:
+            return INFINITY;
+    }
+}
+
+/// SolidShape::reach of a solid whose program is `shapes`.
+float reach_of(const Solid& solid, const glm::dmat4& frame_from_solid, const GridFrame& frame,
+               const std::vector<SolidShape>& shapes) {
+    const SolidShape& first = shapes.front();
+    const glm::dvec3 size(frame.size);
+    const SolidBounds box = bounds(
+        solid, frame_from_solid, SolidBounds{frame.origin, frame.origin + frame.voxel_edge * size});
+    double farthest = 0;
+    if (!box.is_empty()) {
+        const glm::dvec3 centre(first.cell[0] + double(first.fraction[0]),
+                                first.cell[1] + double(first.fraction[1]),
+                                first.cell[2] + double(first.fraction[2]));
+        const glm::dvec3 low = (box.min - frame.origin) / frame.voxel_edge - centre;
+        const glm::dvec3 high = (box.max - frame.origin) / frame.voxel_edge - centre;
+        farthest = glm::length(glm::max(glm::abs(low), glm::abs(high)));
+    }
+    if (shapes.size() == 1) {
+        glm::dmat3 shape_from_grid;
+        for (int i = 0; i < 9; ++i) shape_from_grid[i % 3][i / 3] = first.shape_from_grid[i];
+        farthest = std::min(farthest, radius_of(first) / smallest_singular_value(shape_from_grid));
+    }
+    // Kernels lose some 2^-21 of the way to the centre, which may be 2^24 voxels.
+    return float(farthest * (1 + 0x1p-16) + 4);
+}
+
 /// Appends shapes in the order of evaluation.
 class ProgramWriter {
   public:
@@ -142,6 +190,8 @@ SolidProgram make_solid_program(const Solid& solid, const glm::dmat4& frame_from
     SolidProgram program;
     ProgramWriter(frame, program).write(solid, frame_from_solid, is_complement);
     program.shapes.front().shape_count = static_cast<uint32_t>(program.shapes.size());
+    program.shapes.front().reach =
+        is_complement ? INFINITY : reach_of(solid, frame_from_solid, frame, program.shapes);
     return program;
 }
 

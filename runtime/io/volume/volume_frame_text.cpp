@@ -28,8 +28,8 @@ Json numbers(const Vector& v) {
 }
 
 void take_number(const Json& value, const char* key, int& number) {
+    if (!is_json_integer<int>(value) || value < 0) refuse(key);
     number = json_integer<int>(value);
-    if (number < 0) refuse(key);
 }
 
 void take_number(const Json& value, const char*, double& number) {

@@ -124,6 +124,7 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     BrickGrid& grid = world.grid;
     grid.frame = frame;
     grid.transparent = parts.transparent;
+    grid.cubes = parts.cubes;
     grid.attribute = parts.attributes.size() == 1 ? *parts.attributes.begin() : 0;
     count_bricks_of(device, parts, bricks, grid);
     count_painting(device, counts.bricks);

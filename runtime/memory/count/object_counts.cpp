@@ -79,11 +79,11 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     counts.voxels = size_t(std::max(extent.voxels, 1.0));
     counts.listed = size_t(listed(model, extent));
     counts.cube_normals = shows_voxels(model.surface) && model.normals == CubeNormals::surface;
-    if (model.solid) counts.shapes = count_nodes(*model.solid);
+    if (model.solid) counts.shapes = count_shapes(*model.solid);
     if (!mesh) return counts;
     if (const Solid cuts = cuts_of(model); !cuts.parts.empty()) {
         counts.parts = 1 + parts_of(cuts).size();
-        counts.shapes = count_nodes(cuts);
+        counts.shapes = 1 + count_shapes(cuts);  // the whole frame comes first
     }
     counts.words = mesh->group_names.size() > 1;
     counts.paint = mesh->paint;

@@ -80,6 +80,7 @@ Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const Pyra
         pyramid.attribute = (grid.attribute & ~(~0u << VXL_KIND_SHIFT)) |
                             static_cast<uint32_t>(kind) << VXL_KIND_SHIFT;
     pyramid.transparent = grid.transparent;
+    pyramid.cubes = grid.cubes;
     if (parts.colors) pyramid.colors = Buffer<uint32_t>(device, "voxel colors", records);
     if (parts.normals) pyramid.normals = Buffer<uint32_t>(device, "voxel normals", records);
     if (parts.fields)

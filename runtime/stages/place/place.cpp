@@ -204,6 +204,7 @@ class Placer::State {
     void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& bricks) {
         painted_ = uint32_t(bricks.size());
         world_.transparent = parts_.transparent;
+        world_.cubes = parts_.cubes;
         world_.attribute = parts_.attributes.size() == 1 ? *parts_.attributes.begin() : 0;
         if (bricks.empty()) return;
         bricks_->clear(bricks);

@@ -103,6 +103,7 @@ WorldParts parts_of(std::span<const PlacedObject> objects) {
     WorldParts parts;
     for (const PlacedObject& object : objects) {
         const Surface surface = surface_of(*object.grid);
+        parts.cubes |= surface == Surface::cubes;
         parts.smooth |= stores_distances(surface);
         parts.occupancy |= !stores_distances(surface);
         parts.colors |= !object.grid->colors.empty();

@@ -18,7 +18,8 @@ Surface surface_of(const BrickGrid& grid);
 
 /// The parts that the world stores: those that some object has.
 struct WorldParts {
-    bool smooth = false, occupancy = false, colors = false, normals = false, transparent = false;
+    bool smooth = false, occupancy = false, colors = false, normals = false, transparent = false,
+         cubes = false;
     std::set<uint32_t> attributes;  ///< all values that voxels can have
 
     bool has_attributes() const { return attributes.size() > 1; }

@@ -170,7 +170,7 @@ std::optional<DilationLevel> dilation_that_pays(const Features& features, const 
     constexpr uint64_t kFewRays = 65536;
     constexpr int kLargest = 16384;
     const glm::ivec3& size = world.frame.size;
-    if (features.instances || world.voxel_count == 0 || rays < kFewRays ||
+    if (features.instances || features.solids_ahead || world.voxel_count == 0 || rays < kFewRays ||
         std::max({size.x, size.y, size.z}) > kLargest)
         return std::nullopt;
     const std::optional<DilationLevel> of = dilation_for(voxels_a_pixel);

@@ -8,6 +8,18 @@
 
 namespace voxelume {
 
+namespace {
+
+/// The maximum number of shapes that rays test before they walk.
+constexpr size_t kMaxShapesAhead = 128;
+
+bool has_cubes(const Pyramid& pyramid) {
+    if (!pyramid.attributes.empty()) return pyramid.cubes;
+    return pyramid.attribute >> VXL_KIND_SHIFT == VXL_KIND_CUBES;
+}
+
+}  // namespace
+
 Features features_of(const Pyramid& pyramid) {
     Features features;
     features.attributes = !pyramid.attributes.empty();
@@ -27,9 +39,11 @@ Features features_of(const Pyramid& pyramid) {
     features.field_lists = pyramid.listed_fields > 0;
     features.field_chains = pyramid.has_chains;
     features.chain_depth = int(pyramid.chain_depth);
-    const uint32_t kind = pyramid.attribute >> VXL_KIND_SHIFT;
     features.instances = !pyramid.instances.empty();
-    features.cubes = features.attributes || kind == VXL_KIND_CUBES;
+    features.cubes = has_cubes(pyramid);
+    features.solids_ahead = features.solids && !features.cubes && !features.smooth &&
+                            !features.triangles && !features.instances &&
+                            pyramid.solids.size() <= kMaxShapesAhead * VXL_SOLID_WORDS;
     return features;
 }
 
@@ -50,7 +64,7 @@ void bind(KernelArguments& to, const Surroundings& surroundings) {
 namespace {
 
 bool shadows_fly(const Features& f) {
-    return VXL_REFILLS_SHADOW_LANES(f.paths, f.smooth, f.exact(), f.instances);
+    return VXL_REFILLS_SHADOW_LANES(f.paths, f.smooth, f.exact(), f.instances, f.solids_ahead);
 }
 
 }  // namespace
@@ -65,7 +79,7 @@ TraceStage::TraceStage(const Device& device, const Features& features)
       program_(device, "trace.cl", features.defines(device)),
       closest_(program_.kernel("trace_closest")),
       shadows_(program_.kernel("trace_shadows")) {
-    if (VXL_REFILLS_LANES(features.paths, features.instances))
+    if (VXL_REFILLS_LANES(features.paths, features.instances, features.solids_ahead))
         scattered_ = program_.kernel("trace_scattered");
     if (features.observer_in_medium) inside_ = program_.kernel("begin_inside");
 }

@@ -64,7 +64,7 @@ class TraceStage {
     size_t packets_, interleaved_, shadow_packets_;
     Program program_;
     Kernel closest_, shadows_;
-    std::optional<Kernel> scattered_;  ///< only for scenes with paths and without instances
+    std::optional<Kernel> scattered_;  ///< where VXL_REFILLS_LANES
     std::optional<Kernel> inside_;     ///< only for observers inside media
 };
 
