@@ -3,9 +3,9 @@
 // one that it meets.
 //
 // A test of a solid covers the whole ray, wherever it is made. So the first hit among all solids is
-// that which a walk finds in the voxels that list them. Two kinds of rays may differ: those that
+// that which a walk finds in the voxels that list them, with few exceptions. Rays may differ that
 // leave the world within rounding of the hit, which walks count only where a voxel has listed the
-// solid before, and those that meet three coincident surfaces.
+// solid before, and rays that meet three coincident surfaces, whose order of tests counts.
 #ifndef VXL_ALL_SOLIDS_H
 #define VXL_ALL_SOLIDS_H
 

@@ -37,6 +37,8 @@ static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceV
         const lane_float at = LANES_SELECT(met, from_before - 1.0f, (lane_float)0.0f);
         const lane_float across = LANES_SELECT(LANE_MASK(w->axis == 0), w->ix,
                                                LANES_SELECT(LANE_MASK(w->axis == 1), w->iy, w->iz));
+        // Floats have a face within 2^-25 of the way to its solid's centre. So 8 plane_bound are
+        // enough for centres as far away as 64 lengths of the world.
         // A surface behind the voxel where a ray enters the world isn't listed there.
         const lane_int near = LANE_MASK(at >= -8.0f * p->plane_bound * fabs(across)) &
                               (ray_state->on_surface | is_in_cell(p, w, at));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images of few solids, which rays test all at once, are those of walking rays, to the bit: also
+// An image of few solids, which rays test all at once, is that of walking rays, to the bit: also
 // where rays are reflected and refracted, pass through surfaces to lights and are scattered.
 #include <gtest/gtest.h>
 
