@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 
 #include "runtime/base/helper/helper_wire.hpp"
 #include "runtime/io/vdb/vdb_client.hpp"
+#include "runtime/io/vdb/vdb_model.hpp"
 #include "runtime/io/vdb/vdb_module.hpp"
 #include "runtime/io/vdb/vdb_read.hpp"
 #include "runtime/io/vdb/vdb_stream.hpp"
@@ -85,32 +85,6 @@ VdbFileSummary receive_summary(WireReceiver& receiver) {
     return summary;
 }
 
-bool are_finite(const VdbVoxels& voxels) {
-    const auto is_finite = [](const auto& vector) {
-        return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
-    };
-    const glm::dvec3& edges = voxels.voxel_edges;
-    return is_finite(edges) && std::min({edges.x, edges.y, edges.z}) > 0 &&
-           is_finite(voxels.origin) && std::ranges::all_of(voxels.colors, is_finite) &&
-           std::ranges::all_of(voxels.values, [](float value) { return std::isfinite(value); });
-}
-
-VdbModel receive_model(WireReceiver& receiver, const InputFile& file) {
-    VdbModel model;
-    VdbVoxels& voxels = model.voxels;
-    voxels.voxel_edges = receiver.value<glm::dvec3>();
-    voxels.origin = receiver.value<glm::dvec3>();
-    voxels.cells = receiver.values<glm::ivec3>(kMaxVdbVoxels);
-    voxels.values = receiver.values<float>(kMaxVdbVoxels);
-    voxels.colors = receiver.values<glm::vec3>(kMaxVdbVoxels);
-    const size_t count = voxels.cells.size();
-    if (voxels.values.size() != count || (!voxels.colors.empty() && voxels.colors.size() != count))
-        WireReceiver::fail();
-    if (!are_finite(voxels)) WireReceiver::fail();
-    if (receiver.value<uint32_t>() != 0) model.grid = receive_grid(receiver, max_tree(file));
-    return model;
-}
-
 Volume receive_volume(WireReceiver& receiver, const InputFile& file) {
     Volume volume;
     volume.frame = read_frame_text(receiver.text(kMaxText), file.path().string());
@@ -168,7 +142,9 @@ std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density) {
 VdbVoxels read_vdb_voxels(const fs::path& path, Surface surface) {
     const InputFile file(path);
     if (!readers_are_isolated) return with_values(model_in(read_vdb_content(file), file, surface));
-    const auto receive = [&](WireReceiver& receiver) { return receive_model(receiver, file); };
+    const auto receive = [&](WireReceiver& receiver) {
+        return receive_model(receiver, surface, max_tree(file));
+    };
     return with_values(ask(file, {"model", std::to_string(int(surface))}, receive));
 }
 

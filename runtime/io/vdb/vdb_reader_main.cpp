@@ -11,6 +11,7 @@
 #include "runtime/base/helper/helper_limits.hpp"
 #include "runtime/base/helper/helper_wire.hpp"
 #include "runtime/io/vdb/vdb_client.hpp"
+#include "runtime/io/vdb/vdb_model.hpp"
 #include "runtime/io/vdb/vdb_read.hpp"
 #include "runtime/io/vdb/vdb_tree.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
@@ -30,17 +31,6 @@ void send_summary(WireSender& sender, const VdbFileSummary& summary) {
         sender.value(grid.max);
         sender.value(grid.voxel_edges);
     }
-}
-
-void send_model(WireSender& sender, const VdbModel& model, Surface surface) {
-    sender.value(model.voxels.voxel_edges);
-    sender.value(model.voxels.origin);
-    sender.values(model.voxels.cells);
-    sender.values(model.voxels.values);
-    sender.values(model.voxels.colors);
-    const bool has_grid = stores_distances(surface);  // cells around its surface count, too
-    sender.value(uint32_t{has_grid});
-    if (has_grid) send_grid(sender, *model.grid);
 }
 
 void send_volume(WireSender& sender, const Volume& volume) {

@@ -13,6 +13,7 @@
 
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/vdb/vdb_density.hpp"
+#include "runtime/io/vdb/vdb_model.hpp"
 #include "runtime/io/vdb/vdb_tree.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
 #include "runtime/io/volume_file.hpp"
@@ -183,12 +184,18 @@ class VdbAnswerTest : public FileTest {
         for (int32_t i = 0; i < tiles; ++i) answer += bytes_of_all(i * 4096, 0, 0, 1u, 1.0f, 1u);
         return answer + bytes_of_all(uint64_t{0});
     }
-    openvdb::FloatGrid::Ptr receive(const std::string& answer) const {
+    template <class Receive>
+    auto receive(const std::string& answer, const Receive& receive) const {
         put_bytes(folder / "answer", answer);
         HelperProcess helper("/bin/sh", {"-c", "cat " + (folder / "answer").string() + " >&3"}, 0,
                              60);
         WireReceiver receiver(helper);
-        return vdb::receive_grid(receiver, 100'000'000);
+        return receive(receiver);
+    }
+    openvdb::FloatGrid::Ptr receive(const std::string& answer) const {
+        return receive(answer, [](WireReceiver& receiver) {
+            return vdb::receive_grid(receiver, 100'000'000);
+        });
     }
 };
 
@@ -211,6 +218,26 @@ TEST_F(VdbAnswerTest, MapsThatOpenVdbDoesntTakeAreRefused) {
     EXPECT_THROW(receive(answer_of(kScaleShifted, far, 0)), HelperFailure);
     EXPECT_THROW(receive(answer_of(kAffine, {}, 0)), HelperFailure);
     EXPECT_THROW(receive(answer_of(7, kIdentity, 0)), HelperFailure);
+}
+
+/// Distances of cells outside the listed voxels are asked of the grid.
+TEST_F(VdbAnswerTest, OnlyModelsWithDistancesHaveAGridAndTheyAllDo) {
+    for (const Surface surface : {Surface::cubes, Surface::smooth})
+        for (const bool has_grid : {false, true}) {
+            std::string answer =
+                bytes_of_all(glm::dvec3(1), glm::dvec3(0), uint64_t{1}, glm::ivec3(0), uint64_t{1},
+                             0.5f, uint64_t{0}, uint32_t{has_grid});
+            if (has_grid) answer += answer_of(kAffine, kIdentity, 0);
+            const auto model = [&] {
+                return receive(answer, [&](WireReceiver& receiver) {
+                    return vdb::receive_model(receiver, surface, 100'000'000);
+                });
+            };
+            if (has_grid != (surface == Surface::smooth))
+                EXPECT_THROW(model(), HelperFailure) << has_grid;
+            else
+                EXPECT_EQ(model().voxels.cells.size(), 1u) << has_grid;
+        }
 }
 
 TEST_F(VdbReaderTest, AFileOfEightBytesIsRefused) {
