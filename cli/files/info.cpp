@@ -54,8 +54,8 @@ const char* fault_of(FileIntegrity found, const std::string& ending) {
                    : "is damaged: its bytes aren't those that were written";
     return is_one_of(kWithoutPlace)
                ? "can't be verified: its format has no place for a checksum"
-               : "has no checksum; files that `render` writes have one, volumetric images made of "
-                 "them, and voxels in .vxm, .vdb and .nrrd";
+               : "has no checksum; images, volumetric images, pages and statistics that voxelume "
+                 "writes have one, and voxels in .vxm, .vdb and .nrrd";
 }
 
 void check_integrity(const std::string& path) {
@@ -73,11 +73,11 @@ Action add_info(CLI::App& app) {
         bool json = false, verify = false;
     };
     auto options = std::make_shared<Options>();
-    app.add_option(
-           "FILE", options->path,
-           "scene, .json; OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), or "
-           "mesh, voxels or scan: " +
-               model_endings())
+    app.add_option("FILE", options->path,
+                   "scene or statistics, .json; OpenEXR image, PNG, volumetric image (.vdb .exr "
+                   ".nrrd .json "
+                   ".kv6), page (.html), or mesh, voxels or scan: " +
+                       model_endings())
         ->required();
     app.add_option("--assets", options->scene.assets,
                    "folder to look for a scene's models in; may be given again")

@@ -128,7 +128,7 @@ Report describe_model(const fs::path& path) {
 
 /// Raw data, or those of a display's own format, which the header beside them describes.
 Report describe_volume_data(const fs::path& path) {
-    return describe_volume_header(header_path_of(path));
+    return describe_json(header_path_of(path));
 }
 
 bool is_volume_data(const fs::path& path) {
@@ -157,12 +157,13 @@ struct FileKind {
 /// Finds the reader by the file's first bytes. Where these are unknown, the reader that its name
 /// stands for refuses it. Meshes have no mark of their own, so they come last.
 Describe find_description(const fs::path& path) {
-    constexpr std::array<FileKind, 6> kKinds = {{{{"\x76\x2f\x31\x01", 4}, ".exr", describe_exr},
+    constexpr std::array<FileKind, 7> kKinds = {{{{"\x76\x2f\x31\x01", 4}, ".exr", describe_exr},
                                                  {{"\x89PNG\r\n\x1a\n", 8}, ".png", describe_png},
                                                  {{" BDV\0\0\0\0", 8}, ".vdb", describe_vdb},
                                                  {{"\x89VXM\r\n\x1a\n", 8}, ".vxm", describe_model},
                                                  {{"Kvxl", 4}, ".kv6", describe_kv6},
-                                                 {{"VOX ", 4}, ".vox", describe_vox}}};
+                                                 {{"VOX ", 4}, ".vox", describe_vox},
+                                                 {{"<!doctyp", 8}, ".html", describe_page}}};
     const InputFile file(path);
     std::string start(std::min<uint64_t>(8, file.size()), '\0');
     file.read(0, start.data(), start.size());
@@ -173,7 +174,7 @@ Describe find_description(const fs::path& path) {
         if (ending == kind.ending) return kind.describe;
     if (voxel_file_format(path) != nullptr) return describe_voxel_file;
     if (is_volume_data(path)) return describe_volume_data;
-    return ending == ".json" ? describe_volume_header : describe_mesh;
+    return ending == ".json" ? describe_json : describe_mesh;
 }
 
 }  // namespace

@@ -30,13 +30,16 @@ bool is_left_out(const std::string& channel, const v1::Channels& channels) {
     });
 }
 
-/// The texts for the header of a file: the frame's hash becomes the file's stamp.
+/// The texts for the header of a file: the frame's hash becomes the file's stamp. Images that
+/// aren't a frame's have a stamp for its check alone.
 api::Attributes attributes_for(const v1::Image::Implementation& image,
                                const ImageFormatEntry& format,
                                const v1::ImageFileOptions& options) {
     api::Attributes attributes = image.attributes;
     if (const auto hash = attributes.extract(api::kFrameHash))
         attributes[api::kStamp] = stamp_of(api::hash_for_image(hash.mapped(), format, options));
+    else if (!image.image->attributes.contains(api::kStamp))
+        attributes.try_emplace(api::kStamp, stamp_of(kNoFrame));
     return attributes;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/voxelume/statistics.hpp"
 
@@ -84,6 +85,7 @@ void add_frames(const Statistics& statistics, Json& json) {
 std::string to_json(const Statistics& statistics) {
     Json json;
     json["version"] = voxelume::version();
+    json["checksum"] = stamp_of(kNoFrame);
     add_devices(statistics, json);
     json["size"] = {statistics.size[0], statistics.size[1]};
     json["bands"] = statistics.bands;
@@ -114,7 +116,9 @@ std::string to_json(const Statistics& statistics) {
                         {"from_cache", statistics.programs_from_cache},
                         {"ms", statistics.programs_ms}};
     // A device's name may be in any encoding.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    seal(text);
+    return text;
 }
 
 }  // namespace voxelume::v1

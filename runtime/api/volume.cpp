@@ -11,6 +11,7 @@
 #include "runtime/api/border/handles.hpp"
 #include "runtime/api/border/process.hpp"
 #include "runtime/api/exposure.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/image/volume_view.hpp"
 #include "runtime/io/volume/volume_page.hpp"
 #include "runtime/io/volume_file.hpp"
@@ -54,12 +55,14 @@ ViewPoint view_inside(const v1::ViewPoint& from) {
     return {glm::radians(from.around), glm::radians(from.above)};
 }
 
-/// Frames that show the same share a volume, and each writes it with attributes of its own.
+/// Frames that show the same share a volume, and each writes it with attributes of its own. Volumes
+/// that aren't a frame's have a stamp for its check alone.
 void write(const v1::Volume::Implementation& volume, const std::filesystem::path& file,
            const VolumeOptions& options) {
     static std::mutex attributes_mutex;
     const std::lock_guard lock(attributes_mutex);
     volume.volume->attributes = volume.attributes;
+    volume.volume->attributes.try_emplace(api::kStamp, stamp_of(kNoFrame));
     write_volume(file, *volume.volume, options);
 }
 

@@ -19,8 +19,15 @@ Report describe_mesh(const std::filesystem::path& path);
 /// opens the report.
 Report describe_volume(const std::filesystem::path& path, const char* kind);
 
-/// The JSON header that accompanies a raw file or a display's own.
-Report describe_volume_header(const std::filesystem::path& path);
+/// A JSON file that isn't a scene: the header that accompanies a raw file or a display's own, or
+/// the statistics of a run.
+Report describe_json(const std::filesystem::path& path);
+
+/// The statistics of a run: where it ran, and what it took.
+Report describe_statistics(const Report& statistics);
+
+/// A page that shows a volumetric image in a browser.
+Report describe_page(const std::filesystem::path& path);
 
 /// The header of a KV6 model.
 Report describe_kv6(const std::filesystem::path& path);

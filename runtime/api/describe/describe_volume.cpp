@@ -6,6 +6,7 @@
 #include <array>
 
 #include "runtime/base/files/input_file.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/base/json_text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
@@ -36,13 +37,11 @@ void add_volume_frame(Report& report, const VolumeFrame& frame) {
     report["observer"] = {observer.x, observer.y, observer.z};
 }
 
-/// The volume's JSON header, or nothing for another JSON file.
-Report read_header(const InputFile& file) {
-    constexpr uint64_t kLongestHeader = uint64_t{1} << 24;
-    std::string text(std::min(file.size(), kLongestHeader), '\0');
+/// The first bytes of a file, or all of a shorter one.
+std::string read_start(const InputFile& file, uint64_t max_bytes) {
+    std::string text(std::min(file.size(), max_bytes), '\0');
     file.read(0, text.data(), text.size());
-    const auto header = parse_json_text<Report>(text);
-    return header.is_object() && header.contains("voxelume_volume") ? header : Report();
+    return text;
 }
 
 }  // namespace
@@ -60,12 +59,15 @@ Report describe_volume(const fs::path& path, const char* kind) {
     return report;
 }
 
-Report describe_volume_header(const fs::path& path) {
+Report describe_json(const fs::path& path) {
+    constexpr uint64_t kLongestHeader = uint64_t{1} << 24;
     const InputFile file(path);
-    const Report header = read_header(file);
-    if (header.is_null())
+    const auto header = parse_json_text<Report>(read_start(file, kLongestHeader));
+    if (header.is_object() && header.contains("kernel_ms")) return describe_statistics(header);
+    if (!header.is_object() || !header.contains("voxelume_volume"))
         file.refuse(
-            "is neither a scene, which has \"objects\", nor the header of a display's volume");
+            "is no scene, which has \"objects\", no header of a display's volume, and no "
+            "statistics");
     if (header.value("format", Report()) == "raw") return describe_volume(path, "raw volume");
     Report report = {{"kind", "header of a display's volume"}};
     for (const char* key : {"format", "data", "shape", "axes", "bits", "dither", "bytes"})
@@ -74,6 +76,18 @@ Report describe_volume_header(const fs::path& path) {
     if (header.contains(kFrameKey))
         add_volume_frame(report, read_frame_text(header[kFrameKey].dump(), path.string()));
     return report;
+}
+
+Report describe_page(const fs::path& path) {
+    constexpr uint64_t kLongestHead = 1 << 16;
+    constexpr std::string_view kBegin = "<title>", kEnd = "</title>";
+    const InputFile file(path);
+    const std::string head = read_start(file, kLongestHead);
+    const size_t begin = head.find(kBegin), end = head.find(kEnd);
+    if (!stamp_check_offset(head) || begin == head.npos || end == head.npos || end < begin)
+        file.refuse("is no page of a volumetric image");
+    const size_t title = begin + kBegin.size();
+    return {{"kind", "page of a volumetric image"}, {"title", head.substr(title, end - title)}};
 }
 
 Report describe_kv6(const fs::path& path) {

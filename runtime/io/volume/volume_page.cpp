@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/image/png.hpp"
 
@@ -152,6 +153,7 @@ void write_volume_page(const std::filesystem::path& path, const Volume& volume,
     while (voxels.cells.size() > kMaxPageVoxels) voxels = merge(voxels);
     const std::string data = base64(compress(file, pack(voxels, options.exposure)));
     const std::string frame = frame_json(volume, voxels, options), title = title_of(volume);
+    const std::string stamp = stamp_of(kNoFrame);
     // Replaces each @NAME@ in the page's text.
     std::string_view rest = page_text();
     while (!rest.empty()) {
@@ -160,7 +162,8 @@ void write_volume_page(const std::filesystem::path& path, const Volume& volume,
         file.write(before.data(), before.size());
         if (mark == std::string_view::npos) break;
         const std::string_view name = rest.substr(mark + 1, end - mark - 1);
-        const std::string_view text = name == "TITLE"    ? std::string_view(title)
+        const std::string_view text = name == "STAMP"    ? std::string_view(stamp)
+                                      : name == "TITLE"  ? std::string_view(title)
                                       : name == "FRAME"  ? std::string_view(frame)
                                       : name == "VOXELS" ? std::string_view(data)
                                                          : page_script();

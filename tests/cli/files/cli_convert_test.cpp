@@ -17,8 +17,8 @@ class CliConvertTest : public ProgramTest {};
 
 TEST_F(CliConvertTest, AWayThroughAllFormatsLosesNothing) {
     const Volume volume = rays_volume(DisplayShape::box);
-    write_volume(folder / "a.vdb", volume);
-    for (const char* arguments : {"a.vdb b.raw", "b.json c.nrrd --all",
+    write_volume(folder / "original.vdb", volume);
+    for (const char* arguments : {"original.vdb a.vdb", "a.vdb b.raw", "b.json c.nrrd --all",
                                   "c.nrrd d.nrrd --all --uncompressed", "d.nrrd e.vdb"})
         EXPECT_EQ(run(fmt::format("convert {}", arguments)).exit_code, 0) << arguments;
     EXPECT_TRUE(bytes_of(folder / "a.vdb") == bytes_of(folder / "e.vdb"));
