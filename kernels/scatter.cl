@@ -129,6 +129,13 @@ static inline void put_children(const Destination* to, NewRays* r, Scattered s, 
     LANES_STORE(s.returned, to->child_weights, 0);
 }
 
+/// Notes that a packet's entries have no children. True if compacted queues get none, either.
+static inline int has_no_children(const Destination* to, lane_int wanted) {
+    if (!to->compact | (lanes_any(wanted) != 0)) return 0;
+    LANES_STORE((lane_uint)VXL_NO_CHILD, to->nodes, 0);
+    return 1;
+}
+
 /// The weight in a pixel that the entries' reflected and refracted light may still have.
 static inline lane_float weight_behind(const RayBatch* batch,
                                        global const float* restrict node_weights, uint first) {
@@ -190,15 +197,18 @@ kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float 
     Destination to = {
         VXL_QUEUE, compact, first - begin, counters, child_nodes + first, child_weights + first};
     NewRays ray = begin_node(&p, &batch, first);
-    ray.weight = weight * reflected.returned;
-    reflect_rays(shape, &around, &p, &batch, first, &ray);
-    put_children(&to, &ray, reflected, p.valid);
-    if (VXL_TINTED) store_tints(&around, &p, colors, &batch, child_weights, first);
+    if (!has_no_children(&to, reflected.wanted)) {
+        ray.weight = weight * reflected.returned;
+        reflect_rays(shape, &around, &p, &batch, first, &ray);
+        put_children(&to, &ray, reflected, p.valid);
+        if (VXL_TINTED) store_tints(&around, &p, colors, &batch, child_weights, first);
+    }
     if (!VXL_REFRACTS) return;
-    ray.weight = weight * refracted.returned;
-    refract_rays(shape, &around, &p, &batch, first, &ray);
     to.slot += end - begin;
     to.nodes += stride, to.child_weights += stride;
+    if (has_no_children(&to, refracted.wanted)) return;
+    ray.weight = weight * refracted.returned;
+    refract_rays(shape, &around, &p, &batch, first, &ray);
     put_children(&to, &ray, refracted, p.valid);
 }
 
@@ -217,9 +227,10 @@ kernel void gather_light(uint begin, uint end, VXL_CHILDREN_PARAMETERS,
     const uint node = VXL_TRANSMISSION ? paths[VXL_PATH_TARGET * stride + entry] : entry;
     for (uint c = 0; c < 3; ++c) {
         float sum = 0.0f;
-        if (reflected != VXL_NO_CHILD)
+        if (reflected != VXL_NO_CHILD) {
             sum = child_weights[entry] * light[c * light_stride + reflected];
-        if (VXL_TINTED) sum *= child_weights[tint_of(c, stride, entry)];
+            if (VXL_TINTED) sum *= child_weights[tint_of(c, stride, entry)];
+        }
         if (refracted != VXL_NO_CHILD)
             sum += child_weights[stride + entry] * light[c * light_stride + refracted];
         float node_weight = 1.0f;

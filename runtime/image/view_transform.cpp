@@ -74,6 +74,9 @@ glm::vec3 agx(const glm::vec3& linear) {
     return outset * glm::vec3(curve(wide.r), curve(wide.g), curve(wide.b));
 }
 
+/// Floats with equal bits from here on have an entry of ColorCodes::starts_: 256 to a power of two.
+constexpr uint32_t kStartShift = 15;
+
 float filmic(float x) {
     return (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f);
 }
@@ -96,7 +99,15 @@ double agx_curve(double position) {
 ColorCodes::ColorCodes(ViewTransform transform, int bits)
     : transform_(transform),
       maximum_(uint16_t((1u << bits) - 1)),
-      thresholds_(srgb_thresholds(maximum_)) {}
+      thresholds_(srgb_thresholds(maximum_)),
+      first_prefix_(std::bit_cast<uint32_t>(thresholds_.front()) >> kStartShift) {
+    const uint32_t last = std::bit_cast<uint32_t>(thresholds_.back()) >> kStartShift;
+    for (uint32_t prefix = first_prefix_; prefix <= last + 1; ++prefix) {
+        const auto least = std::bit_cast<float>(prefix << kStartShift);
+        const auto above = std::ranges::upper_bound(thresholds_, least);
+        starts_.push_back(uint32_t(above - thresholds_.begin()));
+    }
+}
 
 uint16_t ColorCodes::code(float value) const {
     return uint16_t(std::lround(std::clamp(value, 0.0f, 1.0f) * float(maximum_)));
@@ -105,7 +116,12 @@ uint16_t ColorCodes::code(float value) const {
 // A search in the thresholds rounds exactly, and gives equal codes on every machine; pow at each
 // pixel does neither.
 uint16_t ColorCodes::srgb(float linear) const {
-    return uint16_t(std::ranges::upper_bound(thresholds_, linear) - thresholds_.begin());
+    if (linear < thresholds_.front()) return 0;
+    if (linear >= thresholds_.back()) return maximum_;
+    const uint32_t entry = (std::bit_cast<uint32_t>(linear) >> kStartShift) - first_prefix_;
+    const auto begin = thresholds_.begin();
+    return uint16_t(std::upper_bound(begin + starts_[entry], begin + starts_[entry + 1], linear) -
+                    begin);
 }
 
 std::array<uint16_t, 3> ColorCodes::operator()(const glm::vec3& linear) const {

@@ -36,6 +36,9 @@ class ColorCodes {
     ViewTransform transform_;
     uint16_t maximum_;
     std::vector<float> thresholds_;
+    /// For all floats that begin with the same bits: the thresholds that the least of them reaches.
+    std::vector<uint32_t> starts_;
+    uint32_t first_prefix_ = 0;  ///< the first bits of the smallest threshold
 };
 
 /// The value of AgX's curve, of contrast 2.4 around middle grey, at a position between its darkest

@@ -24,7 +24,7 @@ enum class SelfTest { unknown, passed, failed };
 struct Candidate;
 class KernelBuilds;
 
-/// A batch of rays that is small enough for a CPU's memory and caches.
+/// The largest batch of rays of a CPU.
 inline constexpr uint32_t kCpuBatchRays = 1u << 17;
 
 /// A device as its OpenCL platform describes it, and whether Voxelume can render on it.

@@ -22,6 +22,27 @@ TEST(ViewTransform, SrgbOfSixteenBitsIsTheStandardsFormula) {
     EXPECT_EQ(codes({-1, 2, 0.5f}), (Codes{0, 65535, 48192}));
 }
 
+/// Of the floats at which one code ends and the next begins, all are tried, and their neighbours.
+TEST(ViewTransform, SrgbCodesBeginAndEndAtTheirThresholds) {
+    for (const int bits : {8, 16}) {
+        const ColorCodes codes(ViewTransform::srgb, bits);
+        const double most = codes.maximum();
+        for (uint32_t k = 0; k < codes.maximum(); ++k) {
+            const double value = (k + 0.5) / most;
+            const auto at =
+                float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+            const float below = std::nextafter(at, 0.0f), above = std::nextafter(at, 2.0f);
+            ASSERT_EQ(codes({below, at, above}),
+                      (Codes{uint16_t(k), uint16_t(k + 1), uint16_t(k + 1)}))
+                << bits << " bits, code " << k;
+        }
+        for (const float dark : {-INFINITY, -1.0f, -0.0f, 1e-45f, 1e-8f})
+            EXPECT_EQ(codes({dark, dark, dark}), Codes{}) << dark;
+        const auto white = codes.maximum();
+        EXPECT_EQ(codes({1, 1e30f, INFINITY}), (Codes{white, white, white}));
+    }
+}
+
 TEST(ViewTransform, NoneStoresTheLightItself) {
     EXPECT_EQ(ColorCodes(ViewTransform::none, 8)({0.2f, 0.5f, 3}), (Codes{51, 128, 255}));
     EXPECT_EQ(ColorCodes(ViewTransform::none, 16)({0.2f, 0.5f, -3}), (Codes{13107, 32768, 0}));

@@ -101,6 +101,10 @@ class PngEncoder {
         header.color_type =
             options.keep_alpha ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA : SPNG_COLOR_TYPE_TRUECOLOR;
         check(spng_set_ihdr(context_.get(), &header));
+        // Two filters instead of five take 0.6 to 0.8 of the time, and files are as large: 0.89 to
+        // 1.12 times on the pictures of scenes/pictures.
+        check(spng_set_option(context_.get(), SPNG_FILTER_CHOICE,
+                              SPNG_FILTER_CHOICE_SUB | SPNG_FILTER_CHOICE_UP));
         put_meaning(options.view_transform);
         if (options.pixel_aspect != 1) put_aspect(options.pixel_aspect);
         put_stamp();
