@@ -71,11 +71,12 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
 /// the viewer. `from` holds points of the source or, for a directional light, the vectors that lead
 /// to it. Every point in the medium gets a slot in the queue of shadow rays. A light's intensity is
 /// pi times its power per solid angle, as for Lambertian surfaces.
-static inline void shine_into_medium(PyramidShape shape, LightRecord light, Vector from, float g,
+static inline void shine_into_medium(PyramidShape shape, LightRecord record, Vector from, float g,
                                      const ShadowQueue* queue, const RayBatch* batch, uint first,
                                      lane_int valid) {
     const uint stride = batch->stride;
     const float4 edge = shape.edge;
+    const Light light = light_of(record);
     const Vector at = load_vector(batch->rays, stride, first);
     const Vector way =
         unit(scaled(load_vector(batch->rays + VXL_RAY_DX * stride, stride, first), edge));
@@ -86,20 +87,18 @@ static inline void shine_into_medium(PyramidShape shape, LightRecord light, Vect
     const lane_float squared = dot_product(metric, metric);
     i.lit = valid & LANE_MASK(squared > 0.0f);
     i.l = unit(metric);
-    i.falloff = falloff_of(light, i.l, squared, i.lit);
+    i.falloff = falloff_of(&light, i.l, squared, i.lit);
     i.lit &= LANE_MASK(i.falloff > 0.0f);
     if (!lanes_any(i.lit)) return;
     LitRays r;
-    aim_at_light(shape, light, &i, at, nowhere, &r);
+    aim_at_light(shape, &light, &i, at, nowhere, &r);
     lane_float scattered = 3.14159265f * phase_density(g, dot_product(way, i.l)) * i.falloff;
     if (VXL_NEAR_LIGHT && light.kind != VXL_LIGHT_DIRECTIONAL) {
-        const Vector middle = {(lane_float)light.position.x, (lane_float)light.position.y,
-                               (lane_float)light.position.z};
-        scattered *= chance_weight(light, edge, scaled(difference(middle, at), edge), way,
+        const Vector middle = vector_of(record.position);
+        scattered *= chance_weight(record, edge, scaled(difference(middle, at), edge), way,
                                    batch->hits, stride, first, i.lit);
     }
-    const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
-    for (int c = 0; c < 3; ++c) r.contribution[c] = scattered * intensity[c];
+    for (int c = 0; c < 3; ++c) r.contribution[c] = scattered * light.intensity[c];
     queue_rays(queue, &r, i.lit, (lane_uint)VXL_NO_PRIMITIVE, stride, first);
 }
 

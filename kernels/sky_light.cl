@@ -57,16 +57,16 @@ kernel void add_sky_light(VXL_WORLD_PARAMETERS, VXL_SKY_PARAMETERS uint number, 
         way = direction_to_map(&around.map, p.shading_normal, number, directions, seed, &weight);
     else
         way = cosine_direction(p.shading_normal, sobol_point((lane_uint)number, seed));
-    LightRecord light;
+    Light light;
     light.kind = VXL_LIGHT_DIRECTIONAL;
     Incidence incidence;
     incidence.lit = p.lit;
     incidence.l = way;
     incidence.to_light = scaled(way, shape.inverse_edge);
-    const lane_int behind = start_off_surface(&world, &batch, first, light, &incidence, &p);
+    const lane_int behind = start_off_surface(&world, &batch, first, &light, &incidence, &p);
     if (!lanes_any(p.lit)) return;
     LitRays r;
-    aim_at_light(shape, light, &incidence, p.start, p.normal, &r);
+    aim_at_light(shape, &light, &incidence, p.start, p.normal, &r);
     lane_float from_sky[3];
     sky_light(&around, way, from_sky);
     const lane_float scale = surface_diffuse(materials, p.material, p.colors) *

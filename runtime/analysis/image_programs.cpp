@@ -35,7 +35,7 @@ bool follows(const Features& f) {
 
 /// The kernels that most images take. The process that renders compiles the others itself: those
 /// for a medium's points near lights, for mattes, for area lights in a medium, and for lights
-/// without an area that shine together with area lights in global light.
+/// without an area that shine together with area lights, or with many others, in global light.
 constexpr KernelRow kKernels[] = {
     {"sight.cl", {"cast_sight"}, always},
     {"trace.cl", {"trace_closest"}, always},
@@ -47,7 +47,10 @@ constexpr KernelRow kKernels[] = {
          return VXL_REFILLS_LANES(f.paths, f.instances, f.solids_ahead) != 0;
      }},
     {"shade.cl", {"shade_surface"}, always},
-    {"light.cl", {"add_light"}, [](const Features& f) { return !f.global || !f.area_samples; }},
+    {"light.cl",
+     {"add_light"},
+     [](const Features& f) { return !f.global || !(f.area_samples || f.chosen_lights); }},
+    {"light_tree.cl", {"add_chosen_light"}, always},
     {"sky_light.cl", {"add_sky_light"}, always},
     {"light_beams.cl", {"send_light_beams"}, always},
     {"medium.cl", {"absorb_sight"}, always},
@@ -134,6 +137,7 @@ std::vector<const char*> sight_files(const Features& features, const Scene& scen
     std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
     const bool is_lit = has_light(features, scene, world);
     if (is_lit) files.push_back("light.cl");
+    if (is_lit && features.chosen_lights) files.push_back("light_tree.cl");
     if (is_lit && has_sky_samples(scene)) files.push_back("sky_light.cl");
     if (has_dilated_occupancy && lights_send_beams(features)) files.push_back("light_beams.cl");
     if (features.absorbs) files.push_back("medium.cl");

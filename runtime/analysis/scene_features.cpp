@@ -8,6 +8,7 @@
 
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/analysis/scene_lights.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/emitters.hpp"
@@ -152,6 +153,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     const bool lit = lights_surfaces(scene, world);
     features.shadows = scene.render.shadows && lit && world.voxel_count > 0;
     features.global = scene.render.light == LightMode::global;
+    features.chosen_lights = lit && count_chosen_lights(scene, world.frame) > 0;
     features.area_samples =
         lit && (has_emissive_samples(scene, world) || (features.global && has_sun(scene.world)) ||
                 has_area_light(scene));

@@ -10,6 +10,12 @@
 #include "runtime/stages/light/sky_light.hpp"
 
 namespace voxelume {
+namespace {
+
+/// The maximum number of points and spots to which each surface point sends a shadow ray.
+constexpr size_t kMostLightsOfEach = 8;
+
+}  // namespace
 
 std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
     std::vector<LightRecord> records;
@@ -39,6 +45,26 @@ std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world) {
         if (has_area(light)) added.area = light_area_record(light, world);
     }
     return lights;
+}
+
+bool may_be_chosen(const PathLight& light) {
+    return !light.area &&
+           (light.record.kind == VXL_LIGHT_POINT || light.record.kind == VXL_LIGHT_SPOT);
+}
+
+std::vector<LightRecord> chosen_lights(std::span<const PathLight> lights) {
+    std::vector<LightRecord> chosen;
+    for (const PathLight& light : lights)
+        if (may_be_chosen(light)) chosen.push_back(light.record);
+    if (chosen.size() <= kMostLightsOfEach) chosen.clear();
+    return chosen;
+}
+
+size_t count_chosen_lights(const Scene& scene, const GridFrame& world) {
+    if (scene.render.light != LightMode::global) return 0;
+    std::vector<PathLight> lights = path_lights(scene, world);
+    std::erase_if(lights, [&](const PathLight& light) { return !may_light(light.record, world); });
+    return chosen_lights(lights).size();
 }
 
 }  // namespace voxelume

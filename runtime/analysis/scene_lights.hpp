@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kernels/shared/paths.h"
@@ -24,5 +25,16 @@ struct PathLight {
 
 /// The lights that a scene lists and its sun, as global light samples them.
 std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world);
+
+/// The lights of `lights` of which each surface point of a path chooses one, where there are so
+/// many that shadow rays to each of them take longer than the choice's noise is worth: points and
+/// spots without an area. Empty if there are fewer.
+std::vector<LightRecord> chosen_lights(std::span<const PathLight> lights);
+
+/// True for a light that is among these if there are any.
+bool may_be_chosen(const PathLight& light);
+
+/// The number of chosen lights of a scene; 0 in local light.
+size_t count_chosen_lights(const Scene& scene, const GridFrame& world);
 
 }  // namespace voxelume

@@ -98,6 +98,11 @@ Illumination::Illumination(const Device& device, const Features& features, const
       queue_(lights_.empty() && sky_samples_ == 0
                  ? ShadowQueue{}
                  : allocate_shadow_queue(device, features, max_rays)) {
+    if (features.chosen_lights) {
+        const std::vector<LightRecord> chosen = chosen_lights(lights_);
+        if (!chosen.empty())
+            light_tree_.emplace(device, features, shade_.materials(), chosen, world.frame);
+    }
     if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
     if (sky_samples_ > 0) sky_lighting_.emplace(device, features, shade_.materials(), shade_.sky());
     if (features.absorbs)
@@ -191,13 +196,19 @@ void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
 /// Lights the surfaces that the rays met: blocks 4 and 5.
 void Illumination::direct(RayBatch& entries, uint32_t count, bool from_observer) {
     shade_.surface(world_, entries, count, from_observer);
-    bring_each_light(entries, count, [&](const PathLight& light) {
+    if (light_tree_) {
+        light_tree_->add(world_, sampling_, entries, count, queue_);
+        bring_light(entries, count);
+    }
+    const auto add = [&](const PathLight& light) {
         if (light.area)
             area_lighting_->add(world_, light.record, *light.area, sampling_, light.number, entries,
                                 count, queue_);
         else
             lighting_->add(world_, light.record, entries, count, queue_);
-    });
+    };
+    for (size_t i = 0; i < lights_.size(); ++i)
+        if (!light_tree_ || !may_be_chosen(lights_[i])) bring_light_of(i, entries, count, add);
     for (uint32_t i = 0; i < sky_samples_; ++i) {
         sky_lighting_->add(world_, i, sky_samples_, entries, count, queue_);
         bring_light(entries, count);
@@ -205,13 +216,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count, bool from_observer)
     if (medium_) medium_->sight(world_, entries, count);
 }
 
-/// Lights points by all lights. `add` queues the shadow rays to a light.
-void Illumination::bring_each_light(RayBatch& points, uint32_t count,
-                                    const std::function<void(const PathLight&)>& add) {
-    for (size_t i = 0; i < lights_.size(); ++i) bring_light_of(i, points, count, add);
-}
-
-/// Lights points by light number `i`.
+/// Lights points by light number `i`. `add` queues the shadow rays to it.
 void Illumination::bring_light_of(size_t i, RayBatch& points, uint32_t count,
                                   const std::function<void(const PathLight&)>& add) {
     add(lights_[i]);

@@ -16,6 +16,7 @@
 #include "runtime/stages/light/area_light.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"
+#include "runtime/stages/light/light_tree.hpp"
 #include "runtime/stages/light/shade.hpp"
 #include "runtime/stages/light/sky_light.hpp"
 #include "runtime/stages/medium/medium.hpp"
@@ -88,8 +89,6 @@ class Illumination {
     void begin_paths(RayBatch& batch, uint32_t count);
     void direct(RayBatch& entries, uint32_t count, bool from_observer);
     void bring_light(RayBatch& entries, uint32_t count);
-    void bring_each_light(RayBatch& points, uint32_t count,
-                          const std::function<void(const PathLight&)>& add);
     void bring_light_of(size_t i, RayBatch& points, uint32_t count,
                         const std::function<void(const PathLight&)>& add);
     void trace_to_emitters(PathDepth& depth, uint32_t count);
@@ -117,6 +116,7 @@ class Illumination {
     ShadeStage shade_;
     Surroundings surroundings_;
     std::optional<LightStage> lighting_;           ///< not compiled in a scene without lights
+    std::optional<LightTreeStage> light_tree_;     ///< only for many lights in global light
     std::optional<AreaLightStage> area_lighting_;  ///< only for areas in global light
     std::optional<SkyLightStage> sky_lighting_;    ///< only for a sky in local light
     std::optional<MediumStage> medium_;            ///< not compiled if nothing absorbs

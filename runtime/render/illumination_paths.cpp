@@ -59,8 +59,9 @@ void Illumination::light_near_points(RayBatch& entries, uint32_t count, bool is_
 /// `taken` rays.
 NextRays Illumination::light_medium(uint32_t count, uint32_t taken, PathDepth& depth) {
     if (count == 0) return {};
-    bring_each_light(depth.points, count,
-                     [&](const PathLight& light) { send_to_points(light, count, depth); });
+    for (size_t i = 0; i < lights_.size(); ++i)
+        bring_light_of(i, depth.points, count,
+                       [&](const PathLight& light) { send_to_points(light, count, depth); });
     return medium_paths_->paths(world_, sampling_, emitters_, depth.points, count, depth.nodes,
                                 depth.next, taken, depth.next_to_emitters);
 }

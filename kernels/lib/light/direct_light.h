@@ -16,11 +16,10 @@
 
 /// The part of a spot light's intensity along the unit vector `to_surface`: a smoothstep of the
 /// cosine.
-static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
-    const lane_float cosine = dot_product(vector_of(light.direction), to_surface);
-    const float width = fmax(light.inner_cosine - light.outer_cosine, 1.17549435e-38f);
-    const lane_float s =
-        clamp(exact_divide(cosine - light.outer_cosine, (lane_float)width), 0.0f, 1.0f);
+static inline lane_float spot_falloff(const Light* light, Vector to_surface) {
+    const lane_float cosine = dot_product(light->direction, to_surface);
+    const lane_float width = fmax(light->inner_cosine - light->outer_cosine, 1.17549435e-38f);
+    const lane_float s = clamp(exact_divide(cosine - light->outer_cosine, width), 0.0f, 1.0f);
     return s * s * fma(-2.0f, s, 3.0f);
 }
 
@@ -28,33 +27,34 @@ static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
 /// at an angle with this cosine: cosine / (d^2 + A/pi). Above a disk's middle this is exact; far
 /// away it is the cosine over d^2; and near by it never exceeds the light that a surface can
 /// receive (Wallace, Elmquist and Haines 1989).
-static inline lane_float area_sample_falloff(LightRecord light, Vector to_surface,
+static inline lane_float area_sample_falloff(const Light* light, Vector to_surface,
                                              lane_float squared) {
-    const lane_float cosine = dot_product(vector_of(light.direction), to_surface);
+    const lane_float cosine = dot_product(light->direction, to_surface);
     const lane_int faces = LANE_MASK(cosine > 0.0f);
-    const lane_float sum = LANES_SELECT(faces, squared + light.spread, (lane_float)1.0f);
+    const lane_float sum = LANES_SELECT(faces, squared + light->spread, (lane_float)1.0f);
     return LANES_SELECT(faces, cosine * exact_reciprocal(sum), (lane_float)0.0f);
 }
 
 /// The light's falloff at the `lit` points, whose squared distances to the light in square metres
 /// are `squared`.
-static inline lane_float falloff_of(LightRecord light, Vector l, lane_float squared, lane_int lit) {
+static inline lane_float falloff_of(const Light* light, Vector l, lane_float squared,
+                                    lane_int lit) {
     lane_float falloff = (lane_float)1.0f;
-    if (light.kind != VXL_LIGHT_DIRECTIONAL)
+    if (light->kind != VXL_LIGHT_DIRECTIONAL)
         falloff = exact_reciprocal(LANES_SELECT(lit, squared, (lane_float)1.0f));
-    if (light.kind == VXL_LIGHT_SPOT) falloff *= spot_falloff(light, opposite(l));
-    if (VXL_AREA_SAMPLES && light.kind == VXL_LIGHT_AREA_SAMPLE)
+    if (light->kind == VXL_LIGHT_SPOT) falloff *= spot_falloff(light, opposite(l));
+    if (VXL_AREA_SAMPLES && light->kind == VXL_LIGHT_AREA_SAMPLE)
         falloff = area_sample_falloff(light, opposite(l), squared);
     return falloff;
 }
 
 /// The light as it arrives at surface points. `from` holds points of the light or, for a
 /// directional light, the vectors that lead to it.
-static inline Incidence incidence_of(LightRecord light, Vector from, float4 edge, Vector position,
+static inline Incidence incidence_of(const Light* light, Vector from, float4 edge, Vector position,
                                      Vector normal, lane_int lit) {
     Incidence i;
     i.to_light = from;
-    if (light.kind != VXL_LIGHT_DIRECTIONAL)
+    if (light->kind != VXL_LIGHT_DIRECTIONAL)
         i.to_light.x -= position.x, i.to_light.y -= position.y, i.to_light.z -= position.z;
     const Vector metric = scaled(i.to_light, edge);
     const lane_float squared = dot_product(metric, metric);
@@ -85,7 +85,7 @@ typedef struct {
 
 /// Aims rays at the light from `start`, which lies on the side of the surface that `normal` points
 /// to.
-static inline void aim_at_light(PyramidShape shape, LightRecord light, const Incidence* i,
+static inline void aim_at_light(PyramidShape shape, const Light* light, const Incidence* i,
                                 Vector start, Vector normal, LitRays* r) {
     const Vector to = i->to_light;
     const lane_float scale =
@@ -98,7 +98,7 @@ static inline void aim_at_light(PyramidShape shape, LightRecord light, const Inc
     r->origin.y = clamp(snap_position(start.y, normal.y, one), 0.0f, (float)shape.size_y);
     r->origin.z = clamp(snap_position(start.z, normal.z, one), 0.0f, (float)shape.size_z);
     r->t_end = (lane_float)INFINITY;
-    if (light.kind != VXL_LIGHT_DIRECTIONAL) r->t_end = exact_reciprocal(scale);
+    if (light->kind != VXL_LIGHT_DIRECTIONAL) r->t_end = exact_reciprocal(scale);
 }
 
 /// The specular share of surfaces and, below, the exponent of their highlights, which maps change
@@ -117,7 +117,7 @@ static inline lane_float surface_shininess(global const float* restrict material
 
 /// The light that surfaces of `material` at `position` return towards the viewer. Returns a mask of
 /// the points that return any.
-static inline lane_int find_contributions(LightRecord light, const Incidence* i,
+static inline lane_int find_contributions(const Light* light, const Incidence* i,
                                           lane_float highlight, Vector position, lane_uint material,
                                           Colors colors, global const float* restrict materials,
                                           lane_float* contribution) {
@@ -129,7 +129,6 @@ static inline lane_int find_contributions(LightRecord light, const Incidence* i,
     if (VXL_TINTED)
         tint = mapped_value(materials, material + VXL_MATERIAL_HIGHLIGHT_TINT, colors,
                             VXL_PAINT_HIGHLIGHT_TINT);
-    const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     const lane_float falloff = i->falloff * surface_opacity(materials, material, colors);
     const lane_uint color_at =
         color_offset(materials, material, position.x, position.y, position.z);
@@ -138,7 +137,7 @@ static inline lane_int find_contributions(LightRecord light, const Incidence* i,
         const lane_float color = surface_color(materials, color_at, colors, channel);
         lane_float shine = specular;
         if (VXL_TINTED) shine *= tinted(color, tint);
-        contribution[channel] = fma(color, diffuse, shine) * falloff * intensity[channel];
+        contribution[channel] = fma(color, diffuse, shine) * falloff * light->intensity[channel];
         any_contribution |= LANE_MASK(contribution[channel] > 0.0f);
     }
     return any_contribution;
@@ -203,7 +202,7 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
 /// Moves the starts of shadow rays off the surfaces, and clears `lit` for points that are lit from
 /// behind. Returns the mask of rays that begin above a triangle and leave it on its back.
 static inline lane_int start_off_surface(const WorldView* world, const RayBatch* batch, uint first,
-                                         LightRecord light, Incidence* incidence, LitPoints* p) {
+                                         const Light* light, Incidence* incidence, LitPoints* p) {
     const uint stride = batch->stride;
     lane_int behind = (lane_int)0;
     if (VXL_SHADING_NORMALS) {
@@ -213,13 +212,13 @@ static inline lane_int start_off_surface(const WorldView* world, const RayBatch*
         p->lit &= ~behind | has_length(offset);
         const Vector up = scaled(offset, world->shape.inverse_edge);
         p->start = add_scaled(p->start, up, (lane_float)1.0f);
-        if (light.kind != VXL_LIGHT_DIRECTIONAL)
+        if (light->kind != VXL_LIGHT_DIRECTIONAL)
             incidence->to_light = difference(incidence->to_light, up);
     }
     if (!(VXL_INSTANCES | VXL_TRIANGLES)) return behind;
     const Vector start =
         offset_origin(world->shape, p->start, p->normal, batch->hits, stride, first);
-    if (light.kind != VXL_LIGHT_DIRECTIONAL)
+    if (light->kind != VXL_LIGHT_DIRECTIONAL)
         incidence->to_light = difference(incidence->to_light, difference(start, p->start));
     p->start = start;
     return behind;
@@ -241,16 +240,16 @@ static inline void send_or_add(const ShadowQueue* queue, const LitRays* r, lane_
     }
 }
 
-/// Adds a light that shines from the points `from`: every surface point that faces the light and
-/// returns some of it gets a slot in the queue of shadow rays, with the light's contribution. If
-/// neither an object nor the medium can block it, the contribution is added at once. Paths that
-/// physically based surfaces scatter may also run into `area` square metres of the light.
-static inline void shine_from(const WorldView* world, LightRecord light, Vector from,
-                              lane_float area, global const float* restrict materials,
-                              const ShadowQueue* queue, const RayBatch* batch, uint first) {
+/// Adds a light that shines on surface points from the points `from`: each of them that faces the
+/// light and returns some of it gets a slot in the queue of shadow rays, with the light's
+/// contribution. If neither an object nor the medium can block it, the contribution is added at
+/// once. Paths that physically based surfaces scatter may also run into `area` square metres of the
+/// light.
+static inline void shine_on(const WorldView* world, const Light* light, Vector from,
+                            lane_float area, global const float* restrict materials,
+                            const ShadowQueue* queue, const RayBatch* batch, uint first,
+                            LitPoints p) {
     const float4 edge = world->shape.edge;
-    LitPoints p;
-    if (!load_lit_points(world, batch, first, &p)) return;
     Incidence incidence = incidence_of(light, from, edge, p.position, p.shading_normal, p.lit);
     p.lit = incidence.lit;
     const lane_int behind = start_off_surface(world, batch, first, light, &incidence, &p);
@@ -266,6 +265,16 @@ static inline void shine_from(const WorldView* world, LightRecord light, Vector 
         some = find_physical_contributions(light, &incidence, area, &p, d, edge, materials, some,
                                            r.contribution);
     send_or_add(queue, &r, p.lit & some, behind, batch, first);
+}
+
+/// Adds a light in the same way to the surface points of a packet of hits.
+static inline void shine_from(const WorldView* world, LightRecord record, Vector from,
+                              lane_float area, global const float* restrict materials,
+                              const ShadowQueue* queue, const RayBatch* batch, uint first) {
+    LitPoints p;
+    if (!load_lit_points(world, batch, first, &p)) return;
+    const Light light = light_of(record);
+    shine_on(world, &light, from, area, materials, queue, batch, first, p);
 }
 
 #endif

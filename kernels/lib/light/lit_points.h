@@ -8,7 +8,27 @@
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/segment.h"
 #include "shared/paths.h"
+#include "shared/scene.h"
 #include "shared/trace.h"
+
+/// A light, or in each lane another one of the same kind.
+typedef struct {
+    int kind;
+    Vector direction;  // of a spot or an area light sample
+    lane_float inner_cosine, outer_cosine, spread;
+    lane_float intensity[3];
+} Light;
+
+static inline Light light_of(LightRecord r) {
+    const Light light = {
+        r.kind,
+        vector_of(r.direction),
+        (lane_float)r.inner_cosine,
+        (lane_float)r.outer_cosine,
+        (lane_float)r.spread,
+        {(lane_float)r.intensity.x, (lane_float)r.intensity.y, (lane_float)r.intensity.z}};
+    return light;
+}
 
 /// A light as a packet of surface points sees it.
 typedef struct {

@@ -28,7 +28,7 @@ static inline lane_int scatters_to(const LitPoints* p, Vector direction) {
 /// Sets the light that the physically based ones among the points return towards the viewer.
 /// Returns the mask of points, of all kinds, that return any. Paths may also run into `area` square
 /// metres of the light.
-static inline lane_int find_physical_contributions(LightRecord light, const Incidence* i,
+static inline lane_int find_physical_contributions(const Light* light, const Incidence* i,
                                                    lane_float area, const LitPoints* p, Vector d,
                                                    float4 edge,
                                                    global const float* restrict materials,
@@ -49,10 +49,9 @@ static inline lane_int find_physical_contributions(LightRecord light, const Inci
     if (VXL_AREA_SHARES)
         falloff *= sent_weight(LANES_SELECT(scatters_to(p, i->l), density, (lane_float)0.0f),
                                i->falloff, area);
-    const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     lane_int any_contribution = (lane_int)0;
     for (int c = 0; c < 3; ++c) {
-        const lane_float own = value[c] * falloff * intensity[c];
+        const lane_float own = value[c] * falloff * light->intensity[c];
         contribution[c] = LANES_SELECT(view.is, own, contribution[c]);
         any_contribution |= LANE_MASK(own > 0.0f);
     }

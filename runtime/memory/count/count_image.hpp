@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/scene/scene.hpp"
+#include "runtime/stages/light/light_tree.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
 #include "runtime/stages/resolve/matte.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
@@ -17,6 +18,7 @@ struct ImageMemory {
     DilatedOccupancy dilated_occupancy;
     Buffer<uint32_t> beams;
     std::vector<Buffer<float>> light_beams;
+    LightTree light_tree;
     DensityGrid density;
     Buffer<uint8_t> tables;  ///< tables of materials, objects and samples
     Buffer<uint8_t> emitters;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// many lights -> a tree of them; surface points -> radiance from one light each that they choose.
+#pragma once
+
+#include <span>
+
+#include "kernels/shared/light_tree.h"
+#include "kernels/shared/paths.h"
+#include "runtime/grid/grid.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/features.hpp"
+#include "runtime/stages/ray_batch.hpp"
+
+namespace voxelume {
+
+/// The tables of VXL_LIGHT_TREE_PARAMETERS.
+struct LightTree {
+    Buffer<LightRecord> lights;  ///< one for each node of the last level
+    Buffer<LightNode> nodes;     ///< by number; number 0 is no node
+    uint32_t levels = 0;         ///< below the root
+    uint32_t compared = 0;       ///< the level whose nodes are compared
+};
+
+void bind(KernelArguments& to, const LightTree& tree);
+
+/// The tables for `count` lights.
+LightTree allocate_light_tree(const Device& device, size_t count);
+
+/// The tables' content.
+struct LightTreeContent {
+    std::vector<LightRecord> lights;
+    std::vector<LightNode> nodes;
+};
+
+/// The tree of points and spots, at least one. Each node's lights are divided into two halves by
+/// their positions along the axis on which these are farthest apart. The result is equal on every
+/// machine.
+LightTreeContent light_tree_of(std::span<const LightRecord> lights, const GridFrame& world);
+
+/// The kernel of light_tree.cl for one feature set.
+class LightTreeStage {
+  public:
+    LightTreeStage(const Device& device, const Features& features,
+                   const Buffer<MaterialRecord>& materials, std::span<const LightRecord> lights,
+                   const GridFrame& world);
+
+    /// Adds the light of the lights that the surface points 0 .. count-1 of paths choose, as
+    /// LightStage adds that of one light.
+    void add(const Pyramid& pyramid, const PathSampling& sampling, RayBatch& batch, uint32_t count,
+             ShadowQueue& queue);
+
+  private:
+    Buffer<MaterialRecord> materials_;
+    LightTree tree_;
+    Program program_;
+    Kernel add_;
+};
+
+}  // namespace voxelume
