@@ -172,6 +172,8 @@ TEST(BuiltScene, OfMirrorsGlassEmissionAndMediaTakesWhatIsPromised) {
     Scene global = promise_room(R"("emission": [3, 2, 1])", "", "", 0.02);
     global.render.light = LightMode::global;
     expect_image_kept("emissive, global", global);
+    global.lights.resize(40, global.lights.front());
+    expect_image_kept("many lights", global);
 }
 
 TEST(BuiltScene, OfSmoothSolidsOfSeveralPartsTakesWhatIsPromised) {

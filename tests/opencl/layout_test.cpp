@@ -11,6 +11,7 @@
 #include "kernels/shared/emitters.h"
 #include "kernels/shared/footprint.h"
 #include "kernels/shared/instance.h"
+#include "kernels/shared/light_tree.h"
 #include "kernels/shared/medium.h"
 #include "kernels/shared/paths.h"
 #include "kernels/shared/scene.h"
@@ -49,6 +50,8 @@
 #define PATH_SAMPLING_FIELDS I(first_tile) I(tiles_x) I(samples) I(bounces) I(first_column) \
     I(first_row) I(first_sample)
 #define LIGHT_AREA_RECORD_FIELDS V(axis_x) V(axis_y)
+#define LIGHT_NODE_FIELDS \
+    FA(middle, 3) F(radius) FA(axis, 3) F(cosine) F(power) FA(unused, 3)
 #define FOOTPRINT_FIELDS \
     V(middle) V(across) V(down) V(ahead) F(half_columns) F(half_rows) F(spread) F(width) I(shape) \
     IA(unused, 3)
@@ -91,6 +94,7 @@ constexpr const char* kDensityShapeText = TEXT_OF(DENSITY_SHAPE_FIELDS);
 
 constexpr const char* kPathSamplingText = TEXT_OF(PATH_SAMPLING_FIELDS);
 constexpr const char* kLightAreaRecordText = TEXT_OF(LIGHT_AREA_RECORD_FIELDS);
+constexpr const char* kLightNodeText = TEXT_OF(LIGHT_NODE_FIELDS);
 constexpr const char* kFootprintText = TEXT_OF(FOOTPRINT_FIELDS);
 constexpr const char* kSkyRecordText = TEXT_OF(SKY_RECORD_FIELDS);
 constexpr const char* kSkyMapRecordText = TEXT_OF(SKY_MAP_RECORD_FIELDS);
@@ -121,6 +125,7 @@ Words read_by_kernel(const T& value, const std::string& type, const std::string&
 #include "shared/emitters.h"
 #include "shared/instance.h"
 #include "shared/paths.h"
+#include "shared/light_tree.h"
 #include "shared/footprint.h"
 #include "shared/sky.h"
 #include "shared/solid.h"
@@ -172,6 +177,7 @@ CROSSES(DisplayLattice, DISPLAY_LATTICE_FIELDS, kDisplayLatticeText)
 CROSSES(SolidShape, SOLID_SHAPE_FIELDS, kSolidShapeText)
 CROSSES(PathSampling, PATH_SAMPLING_FIELDS, kPathSamplingText)
 CROSSES(LightAreaRecord, LIGHT_AREA_RECORD_FIELDS, kLightAreaRecordText)
+CROSSES(LightNode, LIGHT_NODE_FIELDS, kLightNodeText)
 CROSSES(Footprint, FOOTPRINT_FIELDS, kFootprintText)
 CROSSES(SkyRecord, SKY_RECORD_FIELDS, kSkyRecordText)
 CROSSES(SkyMapRecord, SKY_MAP_RECORD_FIELDS, kSkyMapRecordText)

@@ -191,10 +191,15 @@ LinePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fami
     const uint32_t stride = (count + 15) / 16 * 16;
     std::vector<uint32_t> counts;
     for (;;) {
-        if (crossed_.crossings.size() < size_t(stride) * slots_)
+        // Arrays that are too small are freed first, so that none is there twice.
+        if (crossed_.crossings.size() < size_t(stride) * slots_) {
+            crossed_.crossings = {};
             crossed_.crossings = allocate_crossings(device_, stride, slots_);
-        if (transmission_ && crossed_.surfaces.size() < size_t(stride) * slots_)
+        }
+        if (transmission_ && crossed_.surfaces.size() < size_t(stride) * slots_) {
+            crossed_.surfaces = {};
             crossed_.surfaces = allocate_surfaces(device_, stride, slots_);
+        }
         if (crossed_.counts.size() < stride)
             crossed_.counts = Buffer<uint32_t>(device_, "probe counts", stride);
         scan_.launch_packets(count, world, family.row, batch.rays, count, batch.stride, slots_,

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many lights in global light, of which paths choose one at each surface, against the sum of
+// pictures with one light each.
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+#include "tests/oracles/image_hash.hpp"
+#include "tests/support/exhaustive.hpp"
+#include "tests/support/shared_device.hpp"
+
+namespace voxelume {
+namespace {
+
+/// A floor, a wall and a ball of several materials, and lights around them: points, and spots with
+/// narrow and with wide cones, some of which shine away from everything.
+Scene lit_yard(int lights, uint32_t seed, int samples, int bounces = 1) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(-1, 1);
+    std::string list;
+    for (int i = 0; i < lights; ++i) {
+        const bool is_spot = i % 3 != 0;
+        list += fmt::format(
+            R"({}{{"type": "{}", "position": [{}, {}, {}], "intensity": {}, "color": [1, {}, {}]{}}})",
+            i > 0 ? ", " : "", is_spot ? "spot" : "point", any(random), 0.45 + 0.4 * any(random),
+            any(random), 0.3 + 0.2 * any(random), 0.7 + 0.3 * any(random), 0.6 + 0.3 * any(random),
+            is_spot
+                ? fmt::format(R"(, "direction": [{}, {}, {}], "angle": {}, "inner_angle": 10)",
+                              any(random), any(random) - 0.5, any(random), i % 3 == 1 ? 50 : 170)
+                : std::string());
+    }
+    return parse_scene(fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 0.03, "bounds": {{"min": [-1, -0.1, -1], "max": [1, 1, 1]}},
+          "ambient": [0, 0, 0], "background": [0, 0, 0]}},
+"materials": {{"floor": {{"color": [0.8, 0.7, 0.6]}},
+             "metal": {{"base_color": [0.9, 0.8, 0.7], "metallic": 1, "roughness": 0.3}},
+             "paint": {{"base_color": [0.3, 0.4, 0.8], "roughness": 0.5, "coat": 1,
+                       "coat_roughness": 0.2}},
+             "shiny": {{"color": [0.6, 0.7, 0.5], "specular": 0.4, "shininess": 60}}}},
+"models": {{"floor": {{"shape": "box", "size": [2, 0.1, 2], "surface": "cubes"}},
+          "wall": {{"shape": "box", "size": [1.2, 0.7, 0.1], "surface": "exact"}},
+          "ball": {{"shape": "sphere", "radius": 0.25, "surface": "exact"}}}},
+"objects": [{{"model": "floor", "material": "floor", "position": [0, -0.05, 0]}},
+            {{"model": "wall", "material": "shiny", "position": [0, 0.35, -0.6], "turn": [0, 20, 0]}},
+            {{"model": "ball", "material": "metal", "position": [-0.4, 0.25, 0]}},
+            {{"model": "ball", "material": "paint", "position": [0.4, 0.25, 0.2]}}],
+"lights": [{}],
+"observer": {{"position": [0.3, 1.4, 2.2], "look_at": [0, 0.2, 0],
+             "display": {{"shape": "pyramid", "angle": 50}}}},
+"render": {{"light": "global", "bounces": {}, "size": [24, 16], "samples": {}}}}})",
+                                   list, bounces, samples),
+                       "yard.json", {});
+}
+
+Image image_of(const Scene& scene, const Device& device = shared_device()) {
+    RenderReport report;
+    return render(device, scene, report);
+}
+
+double sum_of(const Image& image, const char* plane) {
+    double sum = 0;
+    for (const float value : image.planes.at(plane)) sum += double(value);
+    return sum;
+}
+
+TEST(ManyLights, BringTheLightOfEach) {
+    for (const auto& [lights, seed] : {std::pair(9, 1u), {40, 2u}, {200, 3u}}) {
+        if (lights > 40 && !is_exhaustive()) continue;
+        constexpr int kParts = 8, kSamples = 16;
+        const Scene all = lit_yard(lights, seed, kSamples, 0);
+        Scene one = all;
+        std::map<std::string, double> expected;
+        for (const Light& light : all.lights) {
+            one.lights = {light};
+            one.render.samples = kParts * kSamples;
+            const Image image = image_of(one);
+            for (const char* plane : {"R", "G", "B"}) expected[plane] += sum_of(image, plane);
+        }
+        // All samples of the pictures with one light, in blocks.
+        std::map<std::string, std::vector<double>> found;
+        for (int part = 0; part < kParts; ++part) {
+            Scene scene = all;
+            scene.render.first_sample = part * kSamples;
+            const Image image = image_of(scene);
+            for (const char* plane : {"R", "G", "B"}) found[plane].push_back(sum_of(image, plane));
+        }
+        for (const char* plane : {"R", "G", "B"}) {
+            double mean = 0, square = 0;
+            for (const double sum : found[plane]) mean += sum / kParts;
+            for (const double sum : found[plane]) square += (sum - mean) * (sum - mean);
+            const double error = std::sqrt(square / (kParts * (kParts - 1)));
+            fmt::print("{} lights, {}: {:.4f} +- {:.4f}, expected {:.4f}\n", lights, plane, mean,
+                       error, expected[plane]);
+            EXPECT_NEAR(mean, expected[plane], 4 * error + 1e-5 * expected[plane]);
+        }
+    }
+}
+
+TEST(ManyLights, AreTheSameBitsOnAnyLanes) {
+    const Scene scene = lit_yard(150, 5, 4);
+    const uint64_t expected = oracle::image_hash(image_of(scene));
+    for (const int lanes : {1, 4, 16})
+        EXPECT_EQ(oracle::image_hash(image_of(scene, test_device(lanes))), expected) << lanes;
+}
+
+TEST(ManyLights, AreChosenOnlyWhereThereAreMany) {
+    auto& launches = shared_device().counters().launches;
+    const auto kernels_of = [&](int lights) {
+        launches.clear();
+        image_of(lit_yard(lights, 7, 1));
+        return std::pair(launches["add_light"] > 0, launches["add_chosen_light"] > 0);
+    };
+    EXPECT_EQ(kernels_of(8), std::pair(true, false));
+    EXPECT_EQ(kernels_of(9), std::pair(false, true));
+}
+
+}  // namespace
+}  // namespace voxelume
