@@ -88,7 +88,8 @@ class FrameWalk {
         if (const double bytes = retained_hits(features); bytes > 0)
             hits.emplace(device_, "hits", size_t(bytes));
         memory_.image = height();
-        memory_.light_host_bytes = image.emitter_host_bytes + image.sky_host_bytes;
+        memory_.light_host_bytes =
+            image.emitter_host_bytes + image.sky_host_bytes + image.light_tree_host_bytes;
         memory_.dilated_occupancy = double(
             (image.dilated_occupancy.sectors.size() + image.dilated_occupancy.bricks.size()) * 4);
         memory_.rays = ray_bytes(features, ray_counts(device_, scene_, features));

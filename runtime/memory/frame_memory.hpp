@@ -22,7 +22,7 @@ struct FrameMemory {
     double volume_voxels = 0;      ///< listed in the volumetric image
     double pyramid = 0;            ///< part of `image` and `volume`
     double dilated_occupancy = 0;  ///< part of `image`
-    double light_host_bytes = 0;   ///< main memory for emitters and the sky
+    double light_host_bytes = 0;   ///< main memory for emitters, the sky and many lights
     ForeseenImage foreseen;        ///< made with the expected estimate
     RayBytes rays;                 ///< the maximum that rays may need
     std::string largest_buffer;    ///< the largest buffer of placing and indexing

@@ -6,17 +6,24 @@
 // go down node by node.
 //
 // Every light that may reach a point has a probability above 0 there: bounds are loosened by more
-// than rounding.
+// than rounding, which takes some 5e-4 off a cosine, and no share is smaller than chance can meet.
 #ifndef VXL_LIGHT_TREE_H
 #define VXL_LIGHT_TREE_H
 
 #include "lib/light/lit_points.h"
 #include "lib/light/path_samples.h"
+#include "lib/light/receivers.h"
 #include "shared/light_tree.h"
 
-/// By how much bounds of cosines are loosened, and the smallest one that counts.
+/// By how much bounds of cosines are loosened.
 #define VXL_COSINE_SLACK 1e-3f
-#define VXL_LEAST_COSINE 0.02f
+
+/// The part of the probability that all nodes that may bring light have alike. Without it a lamp
+/// in the next room, which brings nothing, would hide a weaker one here from the points.
+#define VXL_EVEN_SHARE 0.0625f
+
+/// The smallest probability of one of two nodes that both may bring light, for the same reason.
+#define VXL_LEAST_SHARE 0.03125f
 
 /// The largest float below 1.
 #define VXL_BELOW_ONE 0.99999994f
@@ -81,98 +88,16 @@ static inline lane_float cosine_of_less(lane_float cosine, lane_float less_cosin
                         fma(cosine, less_cosine, sine * less_sine));
 }
 
-/// A highlight: of how much light it returns at most, for white matt surfaces' 1, and the square of
-/// its width, GGX's alpha.
-typedef struct {
-    lane_float strength, width;
-} Highlight;
-
-/// The points from which light is chosen, in voxels, and what they return roughly.
-typedef struct {
-    Vector at, normal;
-    float4 edge;
-    Vector out;         // the unit vector to the viewer
-    lane_float cosine;  // between the normal and `out`
-    lane_float matt;    // what they return evenly
-    Highlight own, coat;
-} Receivers;
-
-static inline lane_float squared(lane_float x) {
-    return x * x;
-}
-
-/// The highlight of facets with GGX's `width` that reflect `reflectance` straight on.
-static inline Highlight facet_highlight(lane_float reflectance, lane_float width,
-                                        lane_float cosine) {
-    const lane_float aside = 1.0f - cosine, fourth = squared(squared(aside));
-    const lane_float reflected = fma(fourth * aside, 1.0f - reflectance, reflectance);
-    const lane_float square = fmax(width * width, 1e-6f);
-    const Highlight h = {exact_divide(0.25f * reflected, square), square};
-    return h;
-}
-
-/// What surfaces of the points' materials return, without textures' maps.
-static inline Receivers receivers_of(global const float* restrict materials, const LitPoints* p,
-                                     float4 edge, Vector way) {
-    const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
-    Receivers r = {
-        p->position, p->shading_normal, edge,       opposite(unit(scaled(way, edge))), zero,
-        one,         {zero, one},       {zero, one}};
-    r.cosine = clamp(dot_product(r.normal, r.out), 0.0f, 1.0f);
-    const lane_uint m = p->material & LANES_AS_UINT(p->lit);
-    const lane_float shininess = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_SHININESS);
-    r.own.strength = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_SPECULAR);
-    r.own.width = exact_divide((lane_float)2.0f, fmax(shininess, 0.0f) + 2.0f);
-    if (!VXL_PHYSICAL) return r;
-    const lane_float width = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_WIDTH);
-    const lane_float metallic = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_METALLIC);
-    const lane_float reflectance = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_REFLECTANCE);
-    const lane_int is = LANE_MASK(width > 0.0f);
-    const Highlight facets =
-        facet_highlight(fma(metallic, one - reflectance, reflectance), width, r.cosine);
-    r.own.strength = LANES_SELECT(is, facets.strength, r.own.strength);
-    r.own.width = LANES_SELECT(is, facets.width, r.own.width);
-    r.matt = LANES_SELECT(is, fmax(one - metallic, 0.05f), one);
-    if (!VXL_COAT) return r;
-    const lane_uint block =
-        LANES_UINT(LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_COAT)) & LANES_AS_UINT(is);
-    const lane_int coated = LANE_MASK(block > 0u);
-    const lane_float share = LANES_GATHER_FLOAT(materials, block + VXL_COAT_SHARE);
-    r.coat = facet_highlight((lane_float)VXL_COAT_REFLECTANCE,
-                             LANES_GATHER_FLOAT(materials, block + VXL_COAT_WIDTH), r.cosine);
-    r.coat.strength = LANES_SELECT(coated, share * r.coat.strength, zero);
-    r.coat.width = LANES_SELECT(coated, r.coat.width, one);
-    return r;
-}
-
-/// The strength of a highlight where the half vector has this squared cosine with the normal. The
-/// light comes from all over a ball that is seen under an angle with this squared sine.
-static inline lane_float highlight_at(const Highlight* h, lane_float half_cosine,
-                                      lane_float ball_sine) {
-    const lane_float width = fmin(h->width + ball_sine, 1.0f);
-    const lane_float lobe = exact_divide(width, fma(half_cosine, width - 1.0f, 1.0f));
-    return h->strength * exact_divide(h->width, width) * (lobe * lobe);
-}
-
-/// What the points return of light that comes along `l`, a unit vector with the cosine `facing`.
-static inline lane_float returned_light(const Receivers* p, Vector l, lane_float facing,
-                                        lane_float ball_sine) {
-    const lane_float between = dot_product(l, p->out);
-    const lane_float length = fmax(fma(2.0f, between, 2.0f), 1e-6f);
-    const lane_float half_cosine = fmin(exact_divide(squared(facing + p->cosine), length), 1.0f);
-    lane_float light =
-        fma(p->matt, fmax(facing, VXL_LEAST_COSINE), highlight_at(&p->own, half_cosine, ball_sine));
-    if (VXL_COAT) light += highlight_at(&p->coat, half_cosine, ball_sine);
-    return light;
-}
-
 /// A weight for the light that nodes may send to the points: 0 if it is none. `are_lights`: the
 /// nodes are single lights.
 static inline lane_float node_weight(const Nodes* n, const Receivers* p, int are_lights) {
     const lane_float one = (lane_float)1.0f;
     const Vector to = scaled(difference(n->middle, p->at), p->edge);
     const lane_float distance = dot_product(to, to);  // squared
-    lane_int outside = LANE_MASK(distance > 1e-12f);
+    // A thousandth of a voxel's edge, squared.
+    const float least =
+        1e-6f * fmin(p->edge.x * p->edge.x, fmin(p->edge.y * p->edge.y, p->edge.z * p->edge.z));
+    lane_int outside = LANE_MASK(distance > least);
     if (!are_lights) outside &= LANE_MASK(distance > n->radius * n->radius);
     const lane_float inverse = exact_reciprocal(exact_sqrt(LANES_SELECT(outside, distance, one)));
     const Vector l = {to.x * inverse, to.y * inverse, to.z * inverse};
@@ -191,7 +116,7 @@ static inline lane_float node_weight(const Nodes* n, const Receivers* p, int are
     const lane_int reaches =
         LANE_MASK(facing > -VXL_COSINE_SLACK) & LANE_MASK(leaving > n->cosine - VXL_COSINE_SLACK);
     const lane_float returned = LANES_SELECT(outside, returned_light(p, l, facing, ball_sine), one);
-    return LANES_SELECT(reaches | ~outside, exact_divide(n->power * returned, fmax(near, 1e-12f)),
+    return LANES_SELECT(reaches | ~outside, exact_divide(n->power * returned, fmax(near, least)),
                         (lane_float)0.0f);
 }
 
@@ -213,7 +138,10 @@ static inline void descend(const LightTree* tree, const Receivers* p, lane_float
         const lane_float a = node_weight(&first, p, are_lights);
         const lane_float b = node_weight(&second, p, are_lights);
         c->found &= LANE_MASK(a + b > 0.0f);
-        const lane_float share = exact_divide(a, LANES_SELECT(c->found, a + b, one));
+        const lane_float part = exact_divide(a, LANES_SELECT(c->found, a + b, one));
+        const lane_int both = LANE_MASK(a > 0.0f) & LANE_MASK(b > 0.0f);
+        const lane_float share =
+            LANES_SELECT(both, clamp(part, VXL_LEAST_SHARE, 1.0f - VXL_LEAST_SHARE), part);
         const lane_int high = LANE_MASK(next >= share);
         const lane_float taken =
             LANES_SELECT(c->found, LANES_SELECT(high, 1.0f - share, share), one);
@@ -223,37 +151,49 @@ static inline void descend(const LightTree* tree, const Receivers* p, lane_float
     }
 }
 
+/// Compares the nodes of one level, and chooses one for each of the points `asked`. Sets `next` to
+/// a number below 1 by which points go on.
+static inline ChosenLights choose_nodes(const LightTree* tree, const Receivers* p,
+                                        const PathSamples* samples, lane_int asked,
+                                        lane_float* next) {
+    const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
+    const uint nodes = 1u << tree->compared;
+    float weights[VXL_MOST_COMPARED_NODES * VXL_LANES];
+    lane_float sum = zero, some = zero;
+    for (uint i = 0; i < nodes; ++i) {
+        const Nodes n = load_node(tree->nodes + (nodes + i) * VXL_NODE_WORDS);
+        const lane_float weight = node_weight(&n, p, tree->compared == tree->levels);
+        sum += weight;
+        some += LANES_SELECT(LANE_MASK(weight > 0.0f), one, zero);
+        LANES_STORE(weight, weights, i * VXL_LANES);
+    }
+    ChosenLights c = {asked & LANE_MASK(sum > 0.0f), (lane_uint)nodes, one};
+    const lane_float even = exact_divide(VXL_EVEN_SHARE * sum, LANES_SELECT(c.found, some, one));
+    const lane_float whole = LANES_SELECT(c.found, fma(even, some, sum), one);
+    const SquarePoint point = path_point(samples, VXL_DECISION_CHOICE);
+    const lane_float wanted = point.x * whole;
+    lane_float before = zero, taken = one;
+    lane_int is_past = (lane_int)0;
+    for (uint i = 0; i < nodes; ++i) {
+        const lane_float weight = LANES_LOAD(weights, i * VXL_LANES);
+        // Rounding may leave the last node's end below what is wanted; it is taken all the same.
+        const lane_int here = LANE_MASK(weight > 0.0f) & ~is_past;
+        taken = LANES_SELECT(here, weight + even, taken);
+        c.number = LANES_SELECT(here, (lane_uint)(nodes + i), c.number);
+        before = LANES_SELECT(here, before + taken, before);
+        is_past |= here & LANE_MASK(before > wanted);
+    }
+    c.probability = exact_divide(LANES_SELECT(c.found, taken, one), whole);
+    *next = point.y;
+    return c;
+}
+
 /// Chooses a light for each of the points `asked`.
 static inline ChosenLights choose_lights(const LightTree* tree, const Receivers* p,
                                          const PathSamples* samples, lane_int asked) {
-    const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    const uint nodes = 1u << tree->compared;
-    // [i]: the weights of the nodes up to number i, added
-    float sums[VXL_MOST_COMPARED_NODES * VXL_LANES];
-    lane_float sum = zero;
-    for (uint i = 0; i < nodes; ++i) {
-        const Nodes n = load_node(tree->nodes + (nodes + i) * VXL_NODE_WORDS);
-        sum += node_weight(&n, p, tree->compared == tree->levels);
-        LANES_STORE(sum, sums, i * VXL_LANES);
-    }
-    ChosenLights c = {asked & LANE_MASK(sum > 0.0f), (lane_uint)nodes, one};
-    const lane_float whole = LANES_SELECT(c.found, sum, one);
-    const SquarePoint point = path_point(samples, VXL_DECISION_CHOICE);
-    // It stays below the sum, so that some node is found.
-    const lane_float wanted = fmin(point.x, VXL_BELOW_ONE) * whole;
-    lane_float before = zero, with = zero;
-    lane_int is_found = (lane_int)0;
-    for (uint i = 0; i < nodes; ++i) {
-        const lane_float here = LANES_LOAD(sums, i * VXL_LANES);
-        const lane_int is_here = LANE_MASK(here > wanted) & ~is_found;
-        before = LANES_SELECT(is_found | is_here, before, here);
-        with = LANES_SELECT(is_here, here, with);
-        c.number = LANES_SELECT(is_here, (lane_uint)(nodes + i), c.number);
-        is_found |= is_here;
-    }
-    c.found &= is_found;
-    c.probability = exact_divide(LANES_SELECT(c.found, with - before, one), whole);
-    descend(tree, p, point.y, &c);
+    lane_float next;
+    ChosenLights c = choose_nodes(tree, p, samples, asked, &next);
+    descend(tree, p, next, &c);
     c.number -= 1u << tree->levels;
     return c;
 }

@@ -19,6 +19,7 @@ struct ImageMemory {
     Buffer<uint32_t> beams;
     std::vector<Buffer<float>> light_beams;
     LightTree light_tree;
+    double light_tree_host_bytes = 0;  ///< main memory while the tree is made
     DensityGrid density;
     Buffer<uint8_t> tables;  ///< tables of materials, objects and samples
     Buffer<uint8_t> emitters;

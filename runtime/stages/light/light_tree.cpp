@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-/// A light's least share of the power: lights that shine have a chance, however weak they are.
+/// A light's least share of the power. Weights of what shines are well above 0 as floats.
 constexpr double kLeastShare = 1e-9;
 
 /// By how much bounds are loosened, so that rounding doesn't make them too narrow.
@@ -165,6 +165,13 @@ LightTree allocate_light_tree(const Device& device, size_t count) {
             {device, "tree of lights", 2 * leaves},
             levels,
             std::min<uint32_t>(levels, VXL_MOST_COMPARED_LEVEL)};
+}
+
+double light_tree_host_bytes(size_t count) {
+    constexpr size_t kListed = 128;  // a scene's lights as global light samples them
+    const size_t leaves = leaves_for(count);
+    return double(leaves * (sizeof(LightRecord) + 2 * sizeof(LightNode)) +
+                  count * (sizeof(Leaf) + sizeof(LightRecord) + kListed));
 }
 
 LightTreeContent light_tree_of(std::span<const LightRecord> lights, const GridFrame& world) {

@@ -26,6 +26,9 @@ void bind(KernelArguments& to, const LightTree& tree);
 /// The tables for `count` lights.
 LightTree allocate_light_tree(const Device& device, size_t count);
 
+/// The main memory for making the tree of `count` lights.
+double light_tree_host_bytes(size_t count);
+
 /// The tables' content.
 struct LightTreeContent {
     std::vector<LightRecord> lights;

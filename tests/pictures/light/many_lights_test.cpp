@@ -98,6 +98,24 @@ TEST(ManyLights, BringTheLightOfEach) {
     }
 }
 
+/// Lamps in a closed box of the wall, which bring nothing, as bright as they may be.
+TEST(ManyLights, LeaveAChanceToAWeakOneBesideHiddenOnes) {
+    for (const float hidden : {1.0f, 1e3f, 1e8f}) {
+        if (hidden < 1e8f && !is_exhaustive()) continue;
+        Scene scene = lit_yard(10, 1, 4096, 0);
+        for (size_t i = 1; i < scene.lights.size(); ++i) {
+            scene.lights[i] = scene.lights[0];
+            scene.lights[i].position = {0.01 * double(i) - 0.4, 0.25, 0};  // within the metal ball
+            scene.lights[i].intensity = glm::vec3(hidden);
+        }
+        const double found = sum_of(image_of(scene), "G");
+        scene.lights.resize(1);
+        const double expected = sum_of(image_of(scene), "G");
+        fmt::print("beside lights of {}: {:.4f}, expected {:.4f}\n", hidden, found, expected);
+        EXPECT_NEAR(found, expected, 0.04 * expected) << hidden;
+    }
+}
+
 TEST(ManyLights, AreTheSameBitsOnAnyLanes) {
     const Scene scene = lit_yard(150, 5, 4);
     const uint64_t expected = oracle::image_hash(image_of(scene));

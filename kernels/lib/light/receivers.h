@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surface points that choose a light: roughly how much of a light they would return.
+#ifndef VXL_RECEIVERS_H
+#define VXL_RECEIVERS_H
+
+#include "lib/light/lit_points.h"
+
+/// The smallest cosine between a normal and a light that counts.
+#define VXL_LEAST_COSINE 0.02f
+
+/// A highlight: of how much light it returns at most, for white matt surfaces' 1, and the square of
+/// its width, GGX's alpha.
+typedef struct {
+    lane_float strength, width;
+} Highlight;
+
+/// The points from which light is chosen, in voxels, and what they return roughly.
+typedef struct {
+    Vector at, normal;
+    float4 edge;
+    Vector out;         // the unit vector to the viewer
+    lane_float cosine;  // between the normal and `out`
+    lane_float matt;    // what they return evenly
+    Highlight own, coat;
+} Receivers;
+
+static inline lane_float squared(lane_float x) {
+    return x * x;
+}
+
+/// The highlight of facets with GGX's `width` that reflect `reflectance` straight on.
+static inline Highlight facet_highlight(lane_float reflectance, lane_float width,
+                                        lane_float cosine) {
+    const lane_float aside = 1.0f - cosine, fourth = squared(squared(aside));
+    const lane_float reflected = fma(fourth * aside, 1.0f - reflectance, reflectance);
+    const lane_float square = fmax(width * width, 1e-6f);
+    const Highlight h = {exact_divide(0.25f * reflected, square), square};
+    return h;
+}
+
+/// What surfaces of the points' materials return, without textures' maps.
+static inline Receivers receivers_of(global const float* restrict materials, const LitPoints* p,
+                                     float4 edge, Vector way) {
+    const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
+    Receivers r = {
+        p->position, p->shading_normal, edge,       opposite(unit(scaled(way, edge))), zero,
+        one,         {zero, one},       {zero, one}};
+    r.cosine = clamp(dot_product(r.normal, r.out), 0.0f, 1.0f);
+    const lane_uint m = p->material & LANES_AS_UINT(p->lit);
+    const lane_float shininess = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_SHININESS);
+    r.own.strength = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_SPECULAR);
+    r.own.width = exact_divide((lane_float)2.0f, fmax(shininess, 0.0f) + 2.0f);
+    if (!VXL_PHYSICAL) return r;
+    const lane_float width = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_WIDTH);
+    const lane_float metallic = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_METALLIC);
+    const lane_float reflectance = LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_REFLECTANCE);
+    const lane_int is = LANE_MASK(width > 0.0f);
+    const Highlight facets =
+        facet_highlight(fma(metallic, one - reflectance, reflectance), width, r.cosine);
+    r.own.strength = LANES_SELECT(is, facets.strength, r.own.strength);
+    r.own.width = LANES_SELECT(is, facets.width, r.own.width);
+    r.matt = LANES_SELECT(is, fmax(one - metallic, 0.05f), one);
+    if (!VXL_COAT) return r;
+    const lane_uint block =
+        LANES_UINT(LANES_GATHER_FLOAT(materials, m + VXL_MATERIAL_COAT)) & LANES_AS_UINT(is);
+    const lane_int coated = LANE_MASK(block > 0u);
+    const lane_float share = LANES_GATHER_FLOAT(materials, block + VXL_COAT_SHARE);
+    r.coat = facet_highlight((lane_float)VXL_COAT_REFLECTANCE,
+                             LANES_GATHER_FLOAT(materials, block + VXL_COAT_WIDTH), r.cosine);
+    r.coat.strength = LANES_SELECT(coated, share * r.coat.strength, zero);
+    r.coat.width = LANES_SELECT(coated, r.coat.width, one);
+    return r;
+}
+
+/// The strength of a highlight where the half vector has this squared cosine with the normal. The
+/// light comes from all over a ball that is seen under an angle with this squared sine.
+static inline lane_float highlight_at(const Highlight* h, lane_float half_cosine,
+                                      lane_float ball_sine) {
+    const lane_float width = fmin(h->width + ball_sine, 1.0f);
+    const lane_float lobe = exact_divide(width, fma(half_cosine, width - 1.0f, 1.0f));
+    return h->strength * exact_divide(h->width, width) * (lobe * lobe);
+}
+
+/// What the points return of light that comes along `l`, a unit vector with the cosine `facing`.
+static inline lane_float returned_light(const Receivers* p, Vector l, lane_float facing,
+                                        lane_float ball_sine) {
+    const lane_float between = dot_product(l, p->out);
+    const lane_float length = fmax(fma(2.0f, between, 2.0f), 1e-6f);
+    const lane_float half_cosine = fmin(exact_divide(squared(facing + p->cosine), length), 1.0f);
+    lane_float light =
+        fma(p->matt, fmax(facing, VXL_LEAST_COSINE), highlight_at(&p->own, half_cosine, ball_sine));
+    if (VXL_COAT) light += highlight_at(&p->coat, half_cosine, ball_sine);
+    return light;
+}
+
+#endif
