@@ -103,7 +103,11 @@ Illumination::Illumination(const Device& device, const Features& features, const
         if (!chosen.empty())
             light_tree_.emplace(device, features, shade_.materials(), chosen, world.frame);
     }
-    if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
+    const auto asks_alone = [&](const PathLight& light) {
+        return !light.area && !(light_tree_ && may_be_chosen(light));
+    };
+    if (std::ranges::any_of(lights_, asks_alone))
+        lighting_.emplace(device, features, shade_.materials());
     if (sky_samples_ > 0) sky_lighting_.emplace(device, features, shade_.materials(), shade_.sky());
     if (features.absorbs)
         medium_.emplace(device, features, scene.world, shade_.environment(), shade_.materials(),

@@ -22,7 +22,7 @@ TEST(ViewTransform, SrgbOfSixteenBitsIsTheStandardsFormula) {
     EXPECT_EQ(codes({-1, 2, 0.5f}), (Codes{0, 65535, 48192}));
 }
 
-/// Of the floats at which one code ends and the next begins, all are tried, and their neighbours.
+/// Tries every float at which one code ends and the next begins, and its neighbours.
 TEST(ViewTransform, SrgbCodesBeginAndEndAtTheirThresholds) {
     for (const int bits : {8, 16}) {
         const ColorCodes codes(ViewTransform::srgb, bits);

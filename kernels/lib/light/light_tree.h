@@ -69,7 +69,7 @@ static inline Nodes gather_nodes(const LightTree* tree, lane_uint node) {
     return n;
 }
 
-/// The same node in all lanes.
+/// Repeats a node in all lanes.
 static inline Nodes load_node(global const float* w) {
     const Nodes n = {{(lane_float)w[0], (lane_float)w[1], (lane_float)w[2]},
                      {(lane_float)w[VXL_NODE_AXIS], (lane_float)w[VXL_NODE_AXIS + 1],
@@ -94,7 +94,8 @@ static inline lane_float node_weight(const Nodes* n, const Receivers* p, int are
     const lane_float one = (lane_float)1.0f;
     const Vector to = scaled(difference(n->middle, p->at), p->edge);
     const lane_float distance = dot_product(to, to);  // squared
-    // A thousandth of a voxel's edge, squared.
+    // Nearer than a thousandth of a voxel's edge, a direction says nothing. This only shifts
+    // chances.
     const float least =
         1e-6f * fmin(p->edge.x * p->edge.x, fmin(p->edge.y * p->edge.y, p->edge.z * p->edge.z));
     lane_int outside = LANE_MASK(distance > least);

@@ -24,6 +24,7 @@ typedef struct {
     Highlight own, coat;
 } Receivers;
 
+/// Returns x^2.
 static inline lane_float squared(lane_float x) {
     return x * x;
 }
@@ -33,6 +34,7 @@ static inline Highlight facet_highlight(lane_float reflectance, lane_float width
                                         lane_float cosine) {
     const lane_float aside = 1.0f - cosine, fourth = squared(squared(aside));
     const lane_float reflected = fma(fourth * aside, 1.0f - reflectance, reflectance);
+    // Widths are 1 / 1024 or more; in other lanes, which don't count, the quotient stays finite.
     const lane_float square = fmax(width * width, 1e-6f);
     const Highlight h = {exact_divide(0.25f * reflected, square), square};
     return h;
@@ -85,6 +87,7 @@ static inline lane_float highlight_at(const Highlight* h, lane_float half_cosine
 static inline lane_float returned_light(const Receivers* p, Vector l, lane_float facing,
                                         lane_float ball_sine) {
     const lane_float between = dot_product(l, p->out);
+    // The squared length of the half vector, which vanishes between opposite directions.
     const lane_float length = fmax(fma(2.0f, between, 2.0f), 1e-6f);
     const lane_float half_cosine = fmin(exact_divide(squared(facing + p->cosine), length), 1.0f);
     lane_float light =

@@ -66,7 +66,7 @@ Report describe_json(const fs::path& path) {
     if (header.is_object() && header.contains("kernel_ms")) return describe_statistics(header);
     if (!header.is_object() || !header.contains("voxelume_volume"))
         file.refuse(
-            "is no scene, which has \"objects\", no header of a display's volume, and no "
+            "is neither a scene, which has \"objects\", nor the header of a display's volume, nor "
             "statistics");
     if (header.value("format", Report()) == "raw") return describe_volume(path, "raw volume");
     Report report = {{"kind", "header of a display's volume"}};

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "runtime/grid/grid_arguments.hpp"
 

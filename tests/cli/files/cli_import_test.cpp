@@ -142,7 +142,7 @@ TEST_F(CliImportTest, InfoListsWhatASceneHolds) {
     put_bytes(folder / "a.json", "{\n\"objects\": [,]}");
     EXPECT_THAT(run("info a.json").err, HasSubstr("a.json:2:13: "));
     put_bytes(folder / "a.json", "{\"device\": 1}");
-    EXPECT_THAT(run("info a.json").err, HasSubstr("is no scene"));
+    EXPECT_THAT(run("info a.json").err, HasSubstr("is neither a scene"));
 }
 
 TEST_F(CliImportTest, InfoSaysWhichFluxesAreCut) {

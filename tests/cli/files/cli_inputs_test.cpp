@@ -154,7 +154,7 @@ TEST_F(CliInputsTest, ASceneIsViewedAsItsVolumetricImage) {
     ASSERT_EQ(run("view scene.json -o b.png").exit_code, 0);
     EXPECT_EQ(bytes_of(folder / "a.png"), bytes_of(folder / "b.png"));
     put_bytes(folder / "other.json", "{}");
-    EXPECT_THAT(expect_failure(4, "view other.json -o c.png"), HasSubstr("is no scene"));
+    EXPECT_THAT(expect_failure(4, "view other.json -o c.png"), HasSubstr("neither a scene"));
 }
 
 TEST_F(CliInputsTest, ViewsGoRoundASceneAndAModel) {
