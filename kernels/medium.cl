@@ -7,7 +7,7 @@
 //     transmittance = exp(-absorption * sum), emitted = color * (1 - transmittance).
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
-#include "lib/medium/phase.h"
+#include "lib/light/phase.h"
 #include "lib/medium/sight_loss.h"
 #include "lib/medium/veil.h"
 #include "shared/scene.h"

@@ -7,12 +7,10 @@
 #include "lib/lanes/work_item.h"
 #include "lib/light/area_points.h"
 #include "lib/light/child_rays.h"
-#include "lib/light/direct_light.h"
 #include "lib/light/light_rays.h"
 #include "lib/light/sent_rays.h"
 #include "lib/medium/free_path.h"
-#include "lib/medium/medium_point.h"
-#include "lib/medium/phase.h"
+#include "lib/medium/medium_light.h"
 #include "lib/traverse/segment.h"
 
 /// Among entries 0 .. count-1, finds the paths that the medium scatters before their rays come to
@@ -67,41 +65,6 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
              (part.t_last - path.t) * metres, chance_density(&medium, depth, thick), &slots);
 }
 
-/// Adds the light that a source sends to points in the medium and that the medium scatters towards
-/// the viewer. `from` holds points of the source or, for a directional light, the vectors that lead
-/// to it. Every point in the medium gets a slot in the queue of shadow rays. A light's intensity is
-/// pi times its power per solid angle, as for Lambertian surfaces.
-static inline void shine_into_medium(PyramidShape shape, LightRecord record, Vector from, float g,
-                                     const ShadowQueue* queue, const RayBatch* batch, uint first,
-                                     lane_int valid) {
-    const uint stride = batch->stride;
-    const float4 edge = shape.edge;
-    const Light light = light_of(record);
-    const Vector at = load_vector(batch->rays, stride, first);
-    const Vector way =
-        unit(scaled(load_vector(batch->rays + VXL_RAY_DX * stride, stride, first), edge));
-    const Vector nowhere = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
-    Incidence i;
-    i.to_light = light.kind == VXL_LIGHT_DIRECTIONAL ? from : difference(from, at);
-    const Vector metric = scaled(i.to_light, edge);
-    const lane_float squared = dot_product(metric, metric);
-    i.lit = valid & LANE_MASK(squared > 0.0f);
-    i.l = unit(metric);
-    i.falloff = falloff_of(&light, i.l, squared, i.lit);
-    i.lit &= LANE_MASK(i.falloff > 0.0f);
-    if (!lanes_any(i.lit)) return;
-    LitRays r;
-    aim_at_light(shape, &light, &i, at, nowhere, &r);
-    lane_float scattered = 3.14159265f * phase_density(g, dot_product(way, i.l)) * i.falloff;
-    if (VXL_NEAR_LIGHT && light.kind != VXL_LIGHT_DIRECTIONAL) {
-        const Vector middle = vector_of(record.position);
-        scattered *= chance_weight(record, edge, scaled(difference(middle, at), edge), way,
-                                   batch->hits, stride, first, i.lit);
-    }
-    for (int c = 0; c < 3; ++c) r.contribution[c] = scattered * light.intensity[c];
-    queue_rays(queue, &r, i.lit, (lane_uint)VXL_NO_PRIMITIVE, stride, first);
-}
-
 /// Adds a light that shines from one point or direction to points in the medium.
 kernel void add_light_to_medium(PyramidShape shape, LightRecord light,
                                 VXL_SCATTERING_PARAMETER VXL_SHADOW_QUEUE_PARAMETERS,
@@ -111,9 +74,9 @@ kernel void add_light_to_medium(PyramidShape shape, LightRecord light,
     const RayBatch batch = VXL_BATCH;
     const ShadowQueue queue = VXL_SHADOW_QUEUE;
     const MediumScattering medium = VXL_MEDIUM_SCATTERING;
-    const Vector from = {(lane_float)light.position.x, (lane_float)light.position.y,
-                         (lane_float)light.position.z};
-    shine_into_medium(shape, light, from, medium.anisotropy, &queue, &batch, first,
+    const Vector from = vector_of(light.position);
+    const Light source = light_of(light);
+    shine_into_medium(shape, &source, from, from, medium.anisotropy, &queue, &batch, first,
                       below(first, count));
 }
 
@@ -131,8 +94,9 @@ kernel void add_area_light_to_medium(PyramidShape shape, LightRecord light, Ligh
     const MediumScattering medium = VXL_MEDIUM_SCATTERING;
     const PathSamples samples = samples_of_paths(&sampling, &batch, first);
     const Vector from = area_point(light, area, &samples, number);
-    shine_into_medium(shape, light, from, medium.anisotropy, &queue, &batch, first,
-                      below(first, count));
+    const Light source = light_of(light);
+    shine_into_medium(shape, &source, vector_of(light.position), from, medium.anisotropy, &queue,
+                      &batch, first, below(first, count));
 }
 #endif
 

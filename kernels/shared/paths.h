@@ -61,6 +61,7 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 // of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
 #define VXL_DECISION_DIRECTION 1u           // of scattered light
+#define VXL_DECISION_NEAR_CHOICE 0xFFF7u    // which of many lights shines on a ray's way from near
 #define VXL_DECISION_CHOICE 0xFFF8u         // which of many lights a shadow ray is sent to
 #define VXL_DECISION_NEAR 0xFFF9u           // where on a ray's way a light shines from near by
 #define VXL_DECISION_FLIGHT 0xFFFAu         // how far light travels in a scattering medium

@@ -201,7 +201,7 @@ typedef struct LightRecord {
     float4 direction;    // spot: unit vector in metric space along which the light travels; area
                          // light sample: its normal; w unused
     float4 intensity;    // rgb at 1 m, or everywhere for directional; area light sample: radiance
-                         // times area over pi; w unused
+                         // times area over pi; w: on the host, not 0 for a light that is dark
     float inner_cosine;  // spot: full light inside this angle's cosine, none outside outer_cosine's
     float outer_cosine;
     int kind;

@@ -10,6 +10,7 @@
 
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/scene/parts/light.hpp"
+#include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
 namespace {
@@ -89,7 +90,7 @@ void add_shadow_rays(const Scene& scene, const std::vector<VoxelBox>& emissive_o
         lights = {glm::min(lights.low, low), glm::max(lights.high, high)};
     };
     for (const Light& light : scene.lights) {
-        if (light.intensity == glm::vec3(0)) continue;
+        if (!shines(light)) continue;
         if (type_of(light).has_position) {
             const glm::dvec3 radius(radius_of(light));
             include(in_voxels(light.position - radius, world),

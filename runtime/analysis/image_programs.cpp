@@ -56,7 +56,10 @@ constexpr KernelRow kKernels[] = {
     {"medium.cl", {"absorb_sight"}, always},
     {"medium.cl", {"absorb_shadows"}, [](const Features& f) { return f.medium && !f.filter; }},
     {"medium_paths.cl", {"scatter_in_medium"}, always},
-    {"medium_paths.cl", {"add_light_to_medium"}, always},
+    {"medium_paths.cl",
+     {"add_light_to_medium"},
+     [](const Features& f) { return !f.chosen_lights; }},
+    {"light_tree_medium.cl", {"add_chosen_light_to_medium"}, always},
     {"medium_paths.cl", {"extend_in_medium"}, always},
     {"scatter.cl", {"begin_paths"}, always},
     {"scatter.cl", {"pass_layer"}, [](const Features& f) { return follows(f) && f.transmission; }},
@@ -142,6 +145,7 @@ std::vector<const char*> sight_files(const Features& features, const Scene& scen
     if (has_dilated_occupancy && lights_send_beams(features)) files.push_back("light_beams.cl");
     if (features.absorbs) files.push_back("medium.cl");
     if (features.scattering) files.push_back("medium_paths.cl");
+    if (features.scattering && features.chosen_lights) files.push_back("light_tree_medium.cl");
     if (features.near_light) files.push_back("near_light.cl");
     if (features.paths) files.push_back("scatter.cl");
     if (features.global) files.push_back("extend.cl");

@@ -39,10 +39,10 @@ std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world) {
     uint32_t number = scene.world.sky && scene.world.sky->kind == SkyKind::sun ? 1 : 0;
     for (const Light& light : scene.lights) {
         const uint32_t own_number = number++;
-        if (!shines(light)) continue;
-        PathLight& added =
-            lights.emplace_back(PathLight{light_record(light, world), {}, own_number});
+        if (light.intensity == glm::vec3(0)) continue;
+        PathLight added{light_record(light, world), {}, own_number};
         if (has_area(light)) added.area = light_area_record(light, world);
+        if (shines(light) || may_be_chosen(added)) lights.push_back(added);
     }
     return lights;
 }
@@ -50,6 +50,10 @@ std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world) {
 bool may_be_chosen(const PathLight& light) {
     return !light.area &&
            (light.record.kind == VXL_LIGHT_POINT || light.record.kind == VXL_LIGHT_SPOT);
+}
+
+bool is_dark(const PathLight& light) {
+    return light.record.intensity.w != 0;
 }
 
 std::vector<LightRecord> chosen_lights(std::span<const PathLight> lights) {

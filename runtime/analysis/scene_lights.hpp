@@ -23,7 +23,8 @@ struct PathLight {
     uint32_t number = 0;  ///< number of its random samples, which doesn't depend on other lights
 };
 
-/// The lights that a scene lists and its sun, as global light samples them.
+/// The lights that a scene lists and its sun, as global light samples them. Among them are dark
+/// lights that may be chosen.
 std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world);
 
 /// The lights of `lights` of which each surface point of a path chooses one, where there are so
@@ -33,6 +34,9 @@ std::vector<LightRecord> chosen_lights(std::span<const PathLight> lights);
 
 /// True for a light that is among these if there are any.
 bool may_be_chosen(const PathLight& light);
+
+/// True for a light that brings no light, but may be chosen.
+bool is_dark(const PathLight& light);
 
 /// The number of chosen lights of a scene; 0 in local light.
 size_t count_chosen_lights(const Scene& scene, const GridFrame& world);

@@ -103,8 +103,9 @@ Illumination::Illumination(const Device& device, const Features& features, const
         if (!chosen.empty())
             light_tree_.emplace(device, features, shade_.materials(), chosen, world.frame);
     }
+    std::erase_if(lights_, is_dark);
     const auto asks_alone = [&](const PathLight& light) {
-        return !light.area && !(light_tree_ && may_be_chosen(light));
+        return !light.area && !is_chosen(light);
     };
     if (std::ranges::any_of(lights_, asks_alone))
         lighting_.emplace(device, features, shade_.materials());
@@ -212,7 +213,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count, bool from_observer)
             lighting_->add(world_, light.record, entries, count, queue_);
     };
     for (size_t i = 0; i < lights_.size(); ++i)
-        if (!light_tree_ || !may_be_chosen(lights_[i])) bring_light_of(i, entries, count, add);
+        if (!is_chosen(lights_[i])) bring_light_of(i, entries, count, add);
     for (uint32_t i = 0; i < sky_samples_; ++i) {
         sky_lighting_->add(world_, i, sky_samples_, entries, count, queue_);
         bring_light(entries, count);

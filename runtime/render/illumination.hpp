@@ -85,6 +85,8 @@ class Illumination {
     uint64_t medium_overflows() const;
 
   private:
+    /// True for lights of the tree.
+    bool is_chosen(const PathLight& light) const { return light_tree_ && may_be_chosen(light); }
     void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
     void begin_paths(RayBatch& batch, uint32_t count);
     void direct(RayBatch& entries, uint32_t count, bool from_observer);

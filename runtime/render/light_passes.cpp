@@ -53,7 +53,7 @@ void darken_all_but_lights(Scene& scene) {
 Scene group_alone(const Scene& scene, const std::string& group) {
     Scene result = colors_of(scene);
     for (Light& light : result.lights)
-        if (light.group != group) light.intensity = glm::vec3(0);
+        if (light.group != group) light.is_dark = true;
     if (!group.empty()) darken_all_but_lights(result);
     return result;
 }

@@ -106,7 +106,7 @@ bool has_placed_light(const Scene& scene) {
 }
 
 bool shines(const Light& light) {
-    return light.intensity != glm::vec3(0);
+    return light.intensity != glm::vec3(0) && !light.is_dark;
 }
 
 bool has_area(const Light& light) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surface points -> one of many lights each, and how probable that was, in proportion to how
-// much light nodes of a tree may send to the point (Conty Estevez and Kulla 2018).
+// Surface points, or points and ways in a medium -> one of many lights each, and how probable that
+// was, in proportion to how much light nodes of a tree may send there (Conty Estevez and Kulla
+// 2018).
 //
 // All nodes of one level are compared, which loads each once for a whole packet. Below it, points
 // go down node by node.
@@ -80,16 +81,8 @@ static inline Nodes load_node(global const float* w) {
     return n;
 }
 
-/// The cosine of an angle less another one of at most 90 degrees, but at most 1.
-static inline lane_float cosine_of_less(lane_float cosine, lane_float less_cosine,
-                                        lane_float less_sine) {
-    const lane_float sine = exact_sqrt(fmax(fma(-cosine, cosine, 1.0f), 0.0f));
-    return LANES_SELECT(LANE_MASK(cosine >= less_cosine), (lane_float)1.0f,
-                        fma(cosine, less_cosine, sine * less_sine));
-}
-
-/// A weight for the light that nodes may send to the points: 0 if it is none. `are_lights`: the
-/// nodes are single lights.
+/// A weight for the light that nodes may send to the points or ways: 0 if it is none. `are_lights`:
+/// the nodes are single lights.
 static inline lane_float node_weight(const Nodes* n, const Receivers* p, int are_lights) {
     const lane_float one = (lane_float)1.0f;
     const Vector to = scaled(difference(n->middle, p->at), p->edge);
@@ -98,25 +91,31 @@ static inline lane_float node_weight(const Nodes* n, const Receivers* p, int are
     // chances.
     const float least =
         1e-6f * fmin(p->edge.x * p->edge.x, fmin(p->edge.y * p->edge.y, p->edge.z * p->edge.z));
+    if (p->kind == VXL_RECEIVES_ON_WAY) return n->power * light_along_way(p, to, n->radius, least);
     lane_int outside = LANE_MASK(distance > least);
     if (!are_lights) outside &= LANE_MASK(distance > n->radius * n->radius);
     const lane_float inverse = exact_reciprocal(exact_sqrt(LANES_SELECT(outside, distance, one)));
     const Vector l = {to.x * inverse, to.y * inverse, to.z * inverse};
-    lane_float facing = dot_product(p->normal, l), ball_sine = (lane_float)0.0f;
+    lane_float facing = dot_product(p->normal, l);
+    lane_float ball_cosine = one, ball_sine = (lane_float)0.0f;
     lane_float leaving = -dot_product(n->axis, l);
     lane_float near = distance;
     if (!are_lights) {
         // The ball is seen under this angle around its middle.
-        const lane_float sine = fmin(n->radius * inverse, 1.0f);
-        const lane_float cosine = exact_sqrt(fmax(fma(-sine, sine, 1.0f), 0.0f));
-        facing = cosine_of_less(facing, cosine, sine);
-        leaving = cosine_of_less(leaving, cosine, sine);
+        ball_sine = fmin(n->radius * inverse, 1.0f);
+        ball_cosine = exact_sqrt(fmax(fma(-ball_sine, ball_sine, 1.0f), 0.0f));
+        facing = cosine_of_less(facing, ball_cosine, ball_sine);
+        leaving = cosine_of_less(leaving, ball_cosine, ball_sine);
         near = fmax(distance, n->radius * n->radius);
-        ball_sine = sine * sine;
     }
     const lane_int reaches =
         LANE_MASK(facing > -VXL_COSINE_SLACK) & LANE_MASK(leaving > n->cosine - VXL_COSINE_SLACK);
-    const lane_float returned = LANES_SELECT(outside, returned_light(p, l, facing, ball_sine), one);
+    lane_float returned;
+    if (p->kind == VXL_RECEIVES_IN_MEDIUM)
+        returned = scattered_light(p, l, ball_cosine, ball_sine);
+    else
+        returned = returned_light(p, l, facing, ball_sine * ball_sine);
+    returned = LANES_SELECT(outside, returned, one);
     return LANES_SELECT(reaches | ~outside, exact_divide(n->power * returned, fmax(near, least)),
                         (lane_float)0.0f);
 }
@@ -152,11 +151,10 @@ static inline void descend(const LightTree* tree, const Receivers* p, lane_float
     }
 }
 
-/// Compares the nodes of one level, and chooses one for each of the points `asked`. Sets `next` to
-/// a number below 1 by which points go on.
+/// Compares the nodes of one level, and chooses one for each of the points `asked`, by `point`.
+/// Sets `next` to a number below 1 by which points go on.
 static inline ChosenLights choose_nodes(const LightTree* tree, const Receivers* p,
-                                        const PathSamples* samples, lane_int asked,
-                                        lane_float* next) {
+                                        SquarePoint point, lane_int asked, lane_float* next) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const uint nodes = 1u << tree->compared;
     float weights[VXL_MOST_COMPARED_NODES * VXL_LANES];
@@ -171,7 +169,6 @@ static inline ChosenLights choose_nodes(const LightTree* tree, const Receivers* 
     ChosenLights c = {asked & LANE_MASK(sum > 0.0f), (lane_uint)nodes, one};
     const lane_float even = exact_divide(VXL_EVEN_SHARE * sum, LANES_SELECT(c.found, some, one));
     const lane_float whole = LANES_SELECT(c.found, fma(even, some, sum), one);
-    const SquarePoint point = path_point(samples, VXL_DECISION_CHOICE);
     const lane_float wanted = point.x * whole;
     lane_float before = zero, taken = one;
     lane_int is_past = (lane_int)0;
@@ -189,11 +186,11 @@ static inline ChosenLights choose_nodes(const LightTree* tree, const Receivers* 
     return c;
 }
 
-/// Chooses a light for each of the points `asked`.
+/// Chooses a light for each of the points or ways `asked`, by a point of the unit square.
 static inline ChosenLights choose_lights(const LightTree* tree, const Receivers* p,
-                                         const PathSamples* samples, lane_int asked) {
+                                         SquarePoint point, lane_int asked) {
     lane_float next;
-    ChosenLights c = choose_nodes(tree, p, samples, asked, &next);
+    ChosenLights c = choose_nodes(tree, p, point, asked, &next);
     descend(tree, p, next, &c);
     c.number -= 1u << tree->levels;
     return c;

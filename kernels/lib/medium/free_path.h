@@ -8,7 +8,7 @@
 #define VXL_FREE_PATH_H
 
 #include "lib/lanes/exact_exp.h"
-#include "lib/medium/phase.h"
+#include "lib/light/phase.h"
 #include "lib/sampling/sobol.h"
 #include "lib/traverse/segment.h"
 

@@ -71,7 +71,7 @@ static inline void put_ways(global uint* restrict hits, uint stride, lane_float 
 
 /// The weight in a light's estimate of a point found by chance; points chosen near the light have
 /// the rest.
-static inline lane_float chance_weight(LightRecord light, float4 edge, Vector to_light, Vector way,
+static inline lane_float chance_weight(const Light* light, float4 edge, Vector to_light, Vector way,
                                        global const uint* restrict hits, uint stride, uint first,
                                        lane_int valid) {
     const lane_float came = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_CAME * stride + first));

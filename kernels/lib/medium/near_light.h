@@ -9,6 +9,7 @@
 #define VXL_NEAR_LIGHT_H
 
 #include "lib/lanes/exact_angle.h"
+#include "lib/light/lit_points.h"
 #include "lib/sampling/directions.h"
 #include "shared/scene.h"
 
@@ -21,13 +22,12 @@ typedef struct {
     lane_int some;      // mask: there is such a part
 } NearPart;
 
-/// Cuts off what isn't in the cone of a spot light. The point closest to the light is at `next`
-/// from it.
-static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearPart* p) {
+/// Cuts off what isn't in the cone of a spot light of less than 180 degrees. The point closest to
+/// the light is at `next` from it.
+static inline void cut_to_cone(const Light* light, Vector next, Vector way, NearPart* p) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    const Vector axis = {(lane_float)light.direction.x, (lane_float)light.direction.y,
-                         (lane_float)light.direction.z};
-    const float squared_cosine = light.outer_cosine * light.outer_cosine;
+    const Vector axis = light->direction;
+    const lane_float squared_cosine = light->outer_cosine * light->outer_cosine;
     // The solutions are points x on the way with (next + x way) axis = outer_cosine |next + x way|.
     const lane_float ahead = dot_product(next, axis), along = dot_product(way, axis);
     const lane_float a = fma(along, along, -squared_cosine), b = ahead * along;
@@ -43,11 +43,14 @@ static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearP
     const lane_int across = LANE_MASK(a < 0.0f);
     const lane_int before = LANE_MASK(fma(along, 0.5f * (low + high), ahead) > 0.0f);
     const lane_int towards = LANE_MASK(along > 0.0f);
-    p->begin = LANES_SELECT(across, fmax(p->begin, low),
-                            LANES_SELECT(towards & meets, fmax(p->begin, high), p->begin));
-    p->end = LANES_SELECT(across, fmin(p->end, high),
-                          LANES_SELECT(meets & ~towards, fmin(p->end, low), p->end));
-    p->some &= (across & meets & before) | (~across & LANE_MASK(along != 0.0f));
+    const lane_int narrow = LANE_MASK(light->outer_cosine > 0.0f);
+    const lane_float begin = LANES_SELECT(
+        across, fmax(p->begin, low), LANES_SELECT(towards & meets, fmax(p->begin, high), p->begin));
+    const lane_float end = LANES_SELECT(across, fmin(p->end, high),
+                                        LANES_SELECT(meets & ~towards, fmin(p->end, low), p->end));
+    p->begin = LANES_SELECT(narrow, begin, p->begin);
+    p->end = LANES_SELECT(narrow, end, p->end);
+    p->some &= ~narrow | (across & meets & before) | (~across & LANE_MASK(along != 0.0f));
 }
 
 /// The part of the ways along the unit vectors `way` that the light shines on. The light's middle
@@ -57,7 +60,7 @@ static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearP
 /// If a ray begins at a light, for example because the observer carries one, the medium scatters an
 /// infinite amount of its light towards the observer. Within one voxel of the light only chance
 /// finds that light, so pictures become brighter with more samples.
-static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light, Vector way,
+static inline NearPart near_part(const Light* light, float4 edge, Vector to_light, Vector way,
                                  lane_float begin, lane_float end, lane_int valid) {
     const lane_float one = (lane_float)1.0f;
     const lane_float nearest = dot_product(to_light, way);
@@ -72,8 +75,7 @@ static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light
     const float voxel = fmax(edge.x, fmax(edge.y, edge.z));
     const lane_int at_light = LANE_MASK(fma(p.height, p.height, p.begin * p.begin) < voxel * voxel);
     p.some = valid & ~at_light;
-    if (light.kind == VXL_LIGHT_SPOT && light.outer_cosine > 0.0f)
-        cut_to_cone(light, next, way, &p);
+    if (light->kind == VXL_LIGHT_SPOT) cut_to_cone(light, next, way, &p);
     p.some &= LANE_MASK(p.begin < p.end);
     p.begin = LANES_SELECT(p.some, p.begin, (lane_float)0.0f);
     p.end = LANES_SELECT(p.some, p.end, one);

@@ -18,6 +18,7 @@ LightRecord light_record(const Light& light, const GridFrame& world) {
                                     : -light.direction / world.voxel_edge);
     record.direction = to_float4(light.direction);
     record.intensity = to_float4(glm::dvec3(light.intensity));
+    record.intensity.w = light.is_dark ? 1 : 0;
     record.inner_cosine = float(std::cos(light.inner_half_angle));
     record.outer_cosine = float(std::cos(light.outer_half_angle));
     record.kind = type.shading;

@@ -129,6 +129,7 @@ class LightTreeMaker {
 
     /// The light as a spot: the cone of a point is wider than all directions.
     static LightRecord record_of(LightRecord light) {
+        if (light.intensity.w != 0) light.intensity = {0, 0, 0, 0};
         if (light.kind == VXL_LIGHT_SPOT) return light;
         light.kind = VXL_LIGHT_SPOT;
         light.direction = {0, 0, 1, 0};
@@ -152,10 +153,6 @@ LightTree build_light_tree(const Device& device, std::span<const LightRecord> li
 }
 
 }  // namespace
-
-void bind(KernelArguments& to, const LightTree& tree) {
-    to.add(tree.lights, tree.nodes, tree.levels, tree.compared);
-}
 
 LightTree allocate_light_tree(const Device& device, size_t count) {
     const size_t leaves = leaves_for(count);

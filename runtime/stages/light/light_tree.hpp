@@ -9,19 +9,10 @@
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/features.hpp"
+#include "runtime/stages/light_tree_table.hpp"
 #include "runtime/stages/ray_batch.hpp"
 
 namespace voxelume {
-
-/// The tables of VXL_LIGHT_TREE_PARAMETERS.
-struct LightTree {
-    Buffer<LightRecord> lights;  ///< one for each node of the last level
-    Buffer<LightNode> nodes;     ///< by number; number 0 is no node
-    uint32_t levels = 0;         ///< below the root
-    uint32_t compared = 0;       ///< the level whose nodes are compared
-};
-
-void bind(KernelArguments& to, const LightTree& tree);
 
 /// The tables for `count` lights.
 LightTree allocate_light_tree(const Device& device, size_t count);
@@ -51,6 +42,8 @@ class LightTreeStage {
     /// LightStage adds that of one light.
     void add(const Pyramid& pyramid, const PathSampling& sampling, RayBatch& batch, uint32_t count,
              ShadowQueue& queue);
+
+    const LightTree& tree() const { return tree_; }
 
   private:
     Buffer<MaterialRecord> materials_;

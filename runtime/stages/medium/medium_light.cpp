@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "runtime/scene/predicates.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -47,6 +49,7 @@ glm::dvec3 light_on(const MediumSurface& surface, const glm::dvec3& position,
                     const MediumLights& lights) {
     glm::dvec3 sum = lights.ambient;
     for (const Light& light : lights.lights) {
+        if (!shines(light)) continue;
         glm::dvec3 way = light.direction;  // direction of the light, a unit vector
         double strength = 1;
         if (type_of(light).has_position) {

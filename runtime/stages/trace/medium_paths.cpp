@@ -34,6 +34,11 @@ MediumPathStage::MediumPathStage(const Device& device, const Features& features,
       add_light_(program_.kernel("add_light_to_medium")),
       extend_(program_.kernel("extend_in_medium")) {
     if (features.area_samples) add_area_light_.emplace(program_.kernel("add_area_light_to_medium"));
+    if (features.chosen_lights) {
+        const Program program(device, "light_tree_medium.cl", features.defines(device));
+        chosen_.emplace(ChosenLightKernels{program, program.kernel("find_points_near_chosen"),
+                                           program.kernel("add_chosen_light_to_medium")});
+    }
     if (!features.near_light) return;
     const Program program(device, "near_light.cl", features.defines(device));
     near_.emplace(NearLightKernels{program, program.kernel("find_near_points"),
@@ -56,6 +61,24 @@ uint32_t MediumPathStage::near(const Pyramid& pyramid, const LightRecord& light,
                                sampling, uint32_t(is_first), entries, count,
                                MediumPoints{counters_, points});
     return counters_.read()[kCountChildren];
+}
+
+uint32_t MediumPathStage::near_chosen(const Pyramid& pyramid, const LightTree& tree,
+                                      const PathSampling& sampling, bool is_first,
+                                      RayBatch& entries, uint32_t count, RayBatch& points) {
+    counters_.fill(0);
+    chosen_->find.launch_packets(count, shape_of(pyramid), tree, absorption_, scattering_, density_,
+                                 sampling, uint32_t(is_first), entries, count,
+                                 MediumPoints{counters_, points});
+    return counters_.read()[kCountChildren];
+}
+
+void MediumPathStage::add_chosen_light(const Pyramid& pyramid, const LightTree& tree,
+                                       const PathSampling& sampling, bool are_near,
+                                       RayBatch& points, uint32_t count, ShadowQueue& queue) {
+    queue.count.fill(0);
+    chosen_->add.launch_packets(count, shape_of(pyramid), tree, sampling, uint32_t(are_near),
+                                scattering_, queue, points, count);
 }
 
 void MediumPathStage::add_near(RayBatch& points, uint32_t count, NodeLight& nodes) {

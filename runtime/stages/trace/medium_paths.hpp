@@ -11,6 +11,7 @@
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/emitter_table.hpp"
 #include "runtime/stages/features.hpp"
+#include "runtime/stages/light_tree_table.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
 #include "runtime/stages/medium_scattering.hpp"
 #include "runtime/stages/ray_batch.hpp"
@@ -19,6 +20,12 @@
 #include "runtime/stages/trace/scatter.hpp"
 
 namespace voxelume {
+
+/// The kernels of light_tree_medium.cl.
+struct ChosenLightKernels {
+    Program program;
+    Kernel find, add;
+};
 
 /// The kernels of near_light.cl.
 struct NearLightKernels {
@@ -47,6 +54,10 @@ class MediumPathStage {
     /// at any time, for others before `scatter`, and only for features with `near_light`.
     uint32_t near(const Pyramid& pyramid, const LightRecord& light, const PathSampling& sampling,
                   bool is_first, RayBatch& entries, uint32_t count, RayBatch& points);
+    /// The same for a light of the tree, which each of the entries chooses.
+    uint32_t near_chosen(const Pyramid& pyramid, const LightTree& tree,
+                         const PathSampling& sampling, bool is_first, RayBatch& entries,
+                         uint32_t count, RayBatch& points);
     /// Adds the light of these points to the nodes of their sight rays.
     void add_near(RayBatch& points, uint32_t count, NodeLight& nodes);
 
@@ -56,6 +67,12 @@ class MediumPathStage {
     void add_area_light(const Pyramid& pyramid, const LightRecord& light,
                         const LightAreaRecord& area, const PathSampling& sampling, uint32_t number,
                         RayBatch& points, uint32_t count, ShadowQueue& queue);
+
+    /// Queues a ray from each of the points to a light of the tree: to the one near which
+    /// near_chosen() has found the point if `are_near`, else to one that the point chooses.
+    void add_chosen_light(const Pyramid& pyramid, const LightTree& tree,
+                          const PathSampling& sampling, bool are_near, RayBatch& points,
+                          uint32_t count, ShadowQueue& queue);
 
     /// Adds the light of points 0 .. count-1 to the nodes of their sight rays, and writes the next
     /// rays of their paths to `next`, behind `taken` rays, and those to emitters or to the sky to
@@ -74,7 +91,8 @@ class MediumPathStage {
     Kernel scatter_, add_light_;
     std::optional<Kernel> add_area_light_;  ///< only for features with `area_samples`
     Kernel extend_;
-    std::optional<NearLightKernels> near_;  ///< only for features with `near_light`
+    std::optional<NearLightKernels> near_;      ///< only for features with `near_light`
+    std::optional<ChosenLightKernels> chosen_;  ///< only for features with `chosen_lights`
 };
 
 }  // namespace voxelume

@@ -54,6 +54,15 @@ Scene lit_yard(int lights, uint32_t seed, int samples, int bounces = 1) {
                        "yard.json", {});
 }
 
+/// The yard in a medium that scatters light, mostly ahead or back.
+Scene foggy_yard(int lights, uint32_t seed, int samples, double anisotropy, int bounces = 1) {
+    Scene scene = lit_yard(lights, seed, samples, bounces);
+    scene.world.medium.scattering = {0.5f, 0.4f, 0.3f};
+    scene.world.medium.absorption = glm::vec3(0.1f);
+    scene.world.medium.anisotropy = anisotropy;
+    return scene;
+}
+
 Image image_of(const Scene& scene, const Device& device = shared_device()) {
     RenderReport report;
     return render(device, scene, report);
@@ -98,6 +107,64 @@ TEST(ManyLights, BringTheLightOfEach) {
     }
 }
 
+/// The sums over an image of a plane, of the scene and of its pictures with one light each.
+std::pair<double, double> sums_of(const Scene& scene, const char* plane) {
+    double each = 0;
+    Scene one = scene;
+    for (const Light& light : scene.lights) {
+        one.lights = {light};
+        each += sum_of(image_of(one), plane);
+    }
+    return {sum_of(image_of(scene), plane), each};
+}
+
+TEST(ManyLights, BringTheLightOfEachToAMedium) {
+    for (const auto& [lights, anisotropy] : {std::pair(9, 0.6), {40, -0.4}, {150, 0.9}}) {
+        if (lights > 9 && !is_exhaustive()) continue;
+        const int parts = is_exhaustive() ? 32 : 8;
+        Scene scene = foggy_yard(lights, 4, 16, anisotropy);
+        std::vector<double> differences;
+        double mean = 0, square = 0, expected = 0;
+        for (int part = 0; part < parts; ++part) {
+            scene.render.first_sample = part * 16;
+            const auto [all, each] = sums_of(scene, "G");
+            differences.push_back(all - each);
+            mean += (all - each) / parts;
+            expected += each / parts;
+        }
+        for (const double d : differences) square += (d - mean) * (d - mean);
+        const double error = std::sqrt(square / (parts * (parts - 1.0)));
+        fmt::print("{} lights, g {}: {:.4f} of {:.4f} too much, +- {:.4f}\n", lights, anisotropy,
+                   mean, expected, error);
+        EXPECT_LT(std::abs(mean), 4 * error);
+        EXPECT_LT(error, 0.02 * expected);
+    }
+}
+
+/// Whatever lights a point chooses, it chooses in the image of each group as in that of all light.
+TEST(ManyLights, OfGroupsAddUpToTheImage) {
+    for (const bool is_foggy : {false, true}) {
+        Scene scene = is_foggy ? foggy_yard(20, 6, 4, 0.3) : lit_yard(20, 6, 4);
+        for (size_t i = 0; i < scene.lights.size(); ++i)
+            scene.lights[i].group = i % 5 == 0 ? "" : i % 2 == 0 ? "even" : "odd";
+        scene.render.channels.light_groups = true;
+        const Image image = image_of(scene);
+        for (const char* color : {"R", "G", "B"}) {
+            const auto& all = image.planes.at(color);
+            double odd = 0;
+            for (size_t i = 0; i < all.size(); ++i) {
+                float sum = 0;
+                for (const char* group : {"even", "odd", "rest"})
+                    sum += image.planes.at(fmt::format("light_{}.{}", group, color))[i];
+                // The sums of up to 40 contributions differ by the order of rounding.
+                ASSERT_NEAR(sum, all[i], 1e-5f * std::max(all[i], 1.0f)) << color << i;
+                odd += double(image.planes.at(fmt::format("light_odd.{}", color))[i]);
+            }
+            EXPECT_GT(odd, 0.05 * sum_of(image, color));
+        }
+    }
+}
+
 /// Lamps in a closed box of the wall, which bring nothing, as bright as they may be.
 TEST(ManyLights, LeaveAChanceToAWeakOneBesideHiddenOnes) {
     for (const float hidden : {1.0f, 1e3f, 1e8f}) {
@@ -119,10 +186,11 @@ TEST(ManyLights, LeaveAChanceToAWeakOneBesideHiddenOnes) {
 }
 
 TEST(ManyLights, AreTheSameBitsOnAnyLanes) {
-    const Scene scene = lit_yard(150, 5, 4);
-    const uint64_t expected = oracle::image_hash(image_of(scene));
-    for (const int lanes : {1, 4, 16})
-        EXPECT_EQ(oracle::image_hash(image_of(scene, test_device(lanes))), expected) << lanes;
+    for (const Scene& scene : {lit_yard(150, 5, 4), foggy_yard(30, 5, 4, 0.5)}) {
+        const uint64_t expected = oracle::image_hash(image_of(scene));
+        for (const int lanes : {1, 4, 16})
+            EXPECT_EQ(oracle::image_hash(image_of(scene, test_device(lanes))), expected) << lanes;
+    }
 }
 
 TEST(ManyLights, AreChosenOnlyWhereThereAreMany) {
@@ -134,6 +202,15 @@ TEST(ManyLights, AreChosenOnlyWhereThereAreMany) {
     };
     EXPECT_EQ(kernels_of(8), std::pair(true, false));
     EXPECT_EQ(kernels_of(9), std::pair(false, true));
+    image_of(foggy_yard(9, 7, 1, 0));
+    for (const char* kernel : {"find_points_near_chosen", "add_chosen_light_to_medium"})
+        EXPECT_GT(launches[kernel], 0u) << kernel;
+    for (const char* kernel : {"find_near_points", "add_light_to_medium"})
+        EXPECT_EQ(launches[kernel], 0u) << kernel;
+    launches.clear();
+    image_of(foggy_yard(8, 7, 1, 0));
+    for (const char* kernel : {"find_points_near_chosen", "add_chosen_light_to_medium"})
+        EXPECT_EQ(launches[kernel], 0u) << kernel;
 }
 
 }  // namespace
