@@ -26,7 +26,8 @@ typedef struct {
     int kind;
     Vector at, normal;
     float4 edge;
-    Vector out;         // the unit vector to the viewer; in a medium, to where most light goes on
+    Vector out;  // a unit vector: to the viewer; in a medium, to where most of the light that
+                 // is scattered comes from; along a way
     lane_float cosine;  // between the normal and `out`
     lane_float matt;    // what they return evenly
     Highlight own, coat;
@@ -51,6 +52,7 @@ static inline Highlight facet_highlight(lane_float reflectance, lane_float width
     return h;
 }
 
+/// Receivers that return light evenly.
 static inline Receivers empty_receivers(int kind, Vector at, float4 edge) {
     const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
     const Vector nothing = {zero, zero, zero};

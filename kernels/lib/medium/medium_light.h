@@ -33,10 +33,9 @@ static inline void shine_into_medium(PyramidShape shape, const Light* light, Vec
     LitRays r;
     aim_at_light(shape, light, &i, at, nowhere, &r);
     lane_float scattered = 3.14159265f * phase_density(g, dot_product(way, i.l)) * i.falloff;
-    if (VXL_NEAR_LIGHT && light->kind != VXL_LIGHT_DIRECTIONAL) {
+    if (VXL_NEAR_LIGHT && light->kind != VXL_LIGHT_DIRECTIONAL)
         scattered *= chance_weight(light, edge, scaled(difference(middle, at), edge), way,
                                    batch->hits, stride, first, i.lit);
-    }
     for (int c = 0; c < 3; ++c) r.contribution[c] = scattered * light->intensity[c];
     queue_rays(queue, &r, i.lit, (lane_uint)VXL_NO_PRIMITIVE, stride, first);
 }
