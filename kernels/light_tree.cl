@@ -20,11 +20,11 @@ kernel void add_chosen_light(VXL_WORLD_PARAMETERS, VXL_LIGHT_TREE_PARAMETERS, Pa
     const PathSamples samples = samples_of_paths(&sampling, &batch, first);
     const Vector way = load_vector(rays + VXL_RAY_DX * stride, stride, first);
     const Receivers receivers = receivers_of(materials, &p, shape.edge, way);
-    const ChosenLights chosen =
+    ChosenLights chosen =
         choose_lights(&tree, &receivers, path_point(&samples, VXL_DECISION_CHOICE), p.lit);
-    p.lit = chosen.found;
-    if (!lanes_any(p.lit)) return;
     Vector from;
     const Light light = chosen_light(&tree, &chosen, &from);
+    p.lit = chosen.found;
+    if (!lanes_any(p.lit)) return;
     shine_on(&world, &light, from, (lane_float)0.0f, materials, &queue, &batch, first, p);
 }

@@ -29,12 +29,11 @@ kernel void find_points_near_chosen(PyramidShape shape, VXL_LIGHT_TREE_PARAMETER
     const Receivers receivers = receivers_on_way(ways.segment.origin, shape.edge, ways.direction,
                                                  ways.segment.t_first * ways.metres,
                                                  ways.segment.t_last * ways.metres, extinction);
-    const ChosenLights chosen = choose_lights(
+    ChosenLights chosen = choose_lights(
         &tree, &receivers, path_point(&samples, VXL_DECISION_NEAR_CHOICE), ways.active);
     Vector middle;
     const Light light = chosen_light(&tree, &chosen, &middle);
-    ways.active = chosen.found &
-                  LANE_MASK(light.intensity[0] + light.intensity[1] + light.intensity[2] > 0.0f);
+    ways.active = chosen.found;
     if (!lanes_any(ways.active)) return;
     const NearPoints near = {absorption, &medium,  &density,   &batch,        is_first,
                              &points,    counters, point_hits, point_radiance};
@@ -54,7 +53,7 @@ kernel void add_chosen_light_to_medium(PyramidShape shape, VXL_LIGHT_TREE_PARAME
     const ShadowQueue queue = VXL_SHADOW_QUEUE;
     const MediumScattering medium = VXL_MEDIUM_SCATTERING;
     const LightTree tree = VXL_LIGHT_TREE;
-    ChosenLights chosen = {below(first, count), LANES_LOAD(hits, VXL_POINT_CAME * stride + first),
+    ChosenLights chosen = {below(first, count), LANES_LOAD(hits, VXL_POINT_LIGHT * stride + first),
                            (lane_float)1.0f};
     if (!are_near) {
         const Vector way = load_vector(rays + VXL_RAY_DX * stride, stride, first);
@@ -65,9 +64,9 @@ kernel void add_chosen_light_to_medium(PyramidShape shape, VXL_LIGHT_TREE_PARAME
         chosen = choose_lights(&tree, &receivers, path_point(&samples, VXL_DECISION_CHOICE),
                                chosen.found);
     }
-    if (!lanes_any(chosen.found)) return;
     Vector from;
     const Light light = chosen_light(&tree, &chosen, &from);
+    if (!lanes_any(chosen.found)) return;
     shine_into_medium(shape, &light, from, from, medium.anisotropy, &queue, &batch, first,
                       chosen.found);
 }

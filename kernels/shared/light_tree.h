@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tree of lights, by which surface points of paths choose one of many.
+// A tree of lights, by which points of paths choose one of many.
 #ifndef VXL_SHARED_LIGHT_TREE_H
 #define VXL_SHARED_LIGHT_TREE_H
 

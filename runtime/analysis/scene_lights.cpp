@@ -12,8 +12,12 @@
 namespace voxelume {
 namespace {
 
-/// The maximum number of points and spots to which each surface point sends a shadow ray.
+/// The maximum number of points and spots to which each point sends a shadow ray.
 constexpr size_t kMostLightsOfEach = 8;
+
+bool is_dark_or_alone(const PathLight& light) {
+    return is_dark(light) || !may_be_chosen(light);
+}
 
 }  // namespace
 
@@ -60,7 +64,8 @@ std::vector<LightRecord> chosen_lights(std::span<const PathLight> lights) {
     std::vector<LightRecord> chosen;
     for (const PathLight& light : lights)
         if (may_be_chosen(light)) chosen.push_back(light.record);
-    if (chosen.size() <= kMostLightsOfEach) chosen.clear();
+    if (chosen.size() <= kMostLightsOfEach || std::ranges::all_of(lights, is_dark_or_alone))
+        chosen.clear();
     return chosen;
 }
 

@@ -27,9 +27,9 @@ struct PathLight {
 /// lights that may be chosen.
 std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world);
 
-/// The lights of `lights` of which each surface point of a path chooses one, where there are so
-/// many that shadow rays to each of them take longer than the choice's noise is worth: points and
-/// spots without an area. Empty if there are fewer.
+/// The lights of `lights` of which each point chooses one, on a surface or in a medium, where there
+/// are so many that shadow rays to each of them take longer than the choice's noise is worth:
+/// points and spots without an area. Empty if there are fewer, or all are dark.
 std::vector<LightRecord> chosen_lights(std::span<const PathLight> lights);
 
 /// True for a light that is among these if there are any.

@@ -34,7 +34,7 @@ struct Features {
     bool near_light = false;      ///< in scattering, some light isn't infinitely far away
     bool shadows = false;         ///< lights can be hidden
     bool area_samples = false;    ///< some light has an area
-    bool chosen_lights = false;   ///< paths choose one of many lights at each surface
+    bool chosen_lights = false;   ///< paths choose one of many lights at each point
     bool checker = false;         ///< some material changes its colour from block to block
     bool tinted = false;          ///< some metal in local light reflects in its own colour
     bool paths = false;           ///< rays are reflected, refracted or continue through surfaces

@@ -196,9 +196,9 @@ static inline ChosenLights choose_lights(const LightTree* tree, const Receivers*
     return c;
 }
 
-/// The chosen lights, as strong as their probability makes them.
-static inline Light chosen_light(const LightTree* tree, const ChosenLights* chosen,
-                                 Vector* position) {
+/// The chosen lights, as strong as their probability makes them. Those that are dark no longer
+/// count as found.
+static inline Light chosen_light(const LightTree* tree, ChosenLights* chosen, Vector* position) {
     const lane_uint word = (chosen->number & LANES_AS_UINT(chosen->found)) * (uint)VXL_LIGHT_WORDS;
     global const float* lights = tree->lights;
     *position = gather_vector(lights, word + (uint)VXL_LIGHT_POSITION);
@@ -213,6 +213,7 @@ static inline Light chosen_light(const LightTree* tree, const ChosenLights* chos
     light.intensity[0] = intensity.x * scale;
     light.intensity[1] = intensity.y * scale;
     light.intensity[2] = intensity.z * scale;
+    chosen->found &= LANE_MASK(intensity.x + intensity.y + intensity.z > 0.0f);
     return light;
 }
 

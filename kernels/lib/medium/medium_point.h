@@ -57,8 +57,10 @@ static inline void put_points(const RayQueue* points, const NewRays* point, cons
 
 // What points store in place of a hit where lights near by matter: how far the path came to the
 // point in the medium, and how far it would have continued from there, in metres, and the density
-// per metre of being scattered there. All are 0 where a light needs no other density.
+// per metre of being scattered there. The density is 0 where a light needs no other one, as at
+// points near a light, which store the light's number in the tree if they have chosen it.
 #define VXL_POINT_CAME VXL_HIT_T
+#define VXL_POINT_LIGHT VXL_POINT_CAME
 #define VXL_POINT_AHEAD VXL_HIT_CELL
 #define VXL_POINT_DENSITY VXL_HIT_FACE
 

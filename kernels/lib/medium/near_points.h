@@ -49,8 +49,8 @@ typedef struct {
 } NearPoints;
 
 /// Chooses a point for each way that the light around `middle` shines on, and puts it into the
-/// queue, with the throughput of the light from there, multiplied by `scale`, and with `number`
-/// where points that chance finds store how far their path came.
+/// queue, with the throughput of the light from there, multiplied by `scale`, and with the light's
+/// `number`.
 static inline void put_near_points(PyramidShape shape, const NearPoints* n, const Ways* w,
                                    const Light* light, Vector middle, lane_float scale,
                                    lane_uint number, const PathSampling* sampling, uint first) {

@@ -39,8 +39,9 @@ struct Light {
     int light_samples = 64;       ///< disk and rectangle: number of points that shine
     SourcePlace where;
     std::string group;  ///< the light's group, which may have a channel; empty: none
-    /// Not in scene files: brings no light. Where points choose one of many lights they may choose
-    /// it all the same, so that images of parts of the light choose like the image of all light.
+    /// True for a light that brings no light, but that points which choose one of many lights may
+    /// choose all the same: so images of parts of the light choose like the image of all light. Not
+    /// in scene files.
     bool is_dark = false;
 
     friend bool operator==(const Light&, const Light&) = default;

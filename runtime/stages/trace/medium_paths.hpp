@@ -33,7 +33,8 @@ struct NearLightKernels {
     Kernel find, add;
 };
 
-/// The kernels of medium_paths.cl for one feature set with `scattering`.
+/// The kernels of medium_paths.cl, near_light.cl and light_tree_medium.cl for one feature set with
+/// `scattering`.
 class MediumPathStage {
   public:
     /// `absorption` is the medium's, per metre at density 1.
@@ -54,7 +55,8 @@ class MediumPathStage {
     /// at any time, for others before `scatter`, and only for features with `near_light`.
     uint32_t near(const Pyramid& pyramid, const LightRecord& light, const PathSampling& sampling,
                   bool is_first, RayBatch& entries, uint32_t count, RayBatch& points);
-    /// The same for a light of the tree, which each of the entries chooses.
+    /// Does the same for a light of the tree, which each of the entries chooses. Call it only for
+    /// features with `chosen_lights`, too.
     uint32_t near_chosen(const Pyramid& pyramid, const LightTree& tree,
                          const PathSampling& sampling, bool is_first, RayBatch& entries,
                          uint32_t count, RayBatch& points);
@@ -69,7 +71,8 @@ class MediumPathStage {
                         RayBatch& points, uint32_t count, ShadowQueue& queue);
 
     /// Queues a ray from each of the points to a light of the tree: to the one near which
-    /// near_chosen() has found the point if `are_near`, else to one that the point chooses.
+    /// near_chosen() has found the point if `are_near`, else to one that the point chooses. Call it
+    /// only for features with `chosen_lights`.
     void add_chosen_light(const Pyramid& pyramid, const LightTree& tree,
                           const PathSampling& sampling, bool are_near, RayBatch& points,
                           uint32_t count, ShadowQueue& queue);
