@@ -15,6 +15,7 @@ namespace {
 /// The maximum number of points and spots to which each point sends a shadow ray.
 constexpr size_t kMostLightsOfEach = 8;
 
+/// True unless the light makes a choice worth while: one that shines and may be chosen.
 bool is_dark_or_alone(const PathLight& light) {
     return is_dark(light) || !may_be_chosen(light);
 }
