@@ -21,8 +21,8 @@ kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absor
     const Ways ways = ways_of(shape, &batch, first, count);
     if (!lanes_any(ways.active)) return;
     const Light source = light_of(light);
-    NearPoints near = {absorption, &medium,  &density,   &batch,        is_first,
-                       &points,    counters, point_hits, point_radiance};
+    const NearPoints near = {absorption, &medium,  &density,   &batch,        is_first,
+                             &points,    counters, point_hits, point_radiance};
     put_near_points(shape, &near, &ways, &source, vector_of(light.position), (lane_float)1.0f,
                     (lane_uint)0, &sampling, first);
 }

@@ -47,7 +47,7 @@ static inline Highlight facet_highlight(lane_float reflectance, lane_float width
     const lane_float aside = 1.0f - cosine, fourth = squared(squared(aside));
     const lane_float reflected = fma(fourth * aside, 1.0f - reflectance, reflectance);
     // Widths are 1 / 1024 or more; in other lanes, which don't count, the quotient stays finite.
-    const lane_float square = fmax(width * width, 1e-6f);
+    const lane_float square = fmax(width * width, 9e-7f);
     const Highlight h = {exact_divide(0.25f * reflected, square), square};
     return h;
 }
@@ -159,8 +159,8 @@ static inline lane_float light_along_way(const Receivers* p, Vector to, lane_flo
     const lane_float ahead = dot_product(to, p->out);
     const lane_float nearest = clamp(ahead, p->begin, p->end);
     const Vector across = add_scaled(to, p->out, -nearest);
-    const lane_float squared = fmax(dot_product(across, across), fmax(radius * radius, least));
-    const lane_float distance = exact_sqrt(squared), length = p->end - p->begin;
+    const lane_float square = fmax(dot_product(across, across), fmax(radius * radius, least));
+    const lane_float distance = exact_sqrt(square), length = p->end - p->begin;
     const lane_float thick = fma(nearest - p->begin, p->extinction, 1.0f);
     return exact_divide(length, distance * (distance + length) * (thick * thick));
 }

@@ -53,24 +53,27 @@ uint32_t MediumPathStage::scatter(const Pyramid& pyramid, const PathSampling& sa
     return counters_.read()[kCountChildren];
 }
 
+template <class Lights>
+uint32_t MediumPathStage::find_near(Kernel& kernel, const Pyramid& pyramid, const Lights& lights,
+                                    const PathSampling& sampling, bool is_first, RayBatch& entries,
+                                    uint32_t count, RayBatch& points) {
+    counters_.fill(0);
+    kernel.launch_packets(count, shape_of(pyramid), lights, absorption_, scattering_, density_,
+                          sampling, uint32_t(is_first), entries, count,
+                          MediumPoints{counters_, points});
+    return counters_.read()[kCountChildren];
+}
+
 uint32_t MediumPathStage::near(const Pyramid& pyramid, const LightRecord& light,
                                const PathSampling& sampling, bool is_first, RayBatch& entries,
                                uint32_t count, RayBatch& points) {
-    counters_.fill(0);
-    near_->find.launch_packets(count, shape_of(pyramid), light, absorption_, scattering_, density_,
-                               sampling, uint32_t(is_first), entries, count,
-                               MediumPoints{counters_, points});
-    return counters_.read()[kCountChildren];
+    return find_near(near_->find, pyramid, light, sampling, is_first, entries, count, points);
 }
 
 uint32_t MediumPathStage::near_chosen(const Pyramid& pyramid, const LightTree& tree,
                                       const PathSampling& sampling, bool is_first,
                                       RayBatch& entries, uint32_t count, RayBatch& points) {
-    counters_.fill(0);
-    chosen_->find.launch_packets(count, shape_of(pyramid), tree, absorption_, scattering_, density_,
-                                 sampling, uint32_t(is_first), entries, count,
-                                 MediumPoints{counters_, points});
-    return counters_.read()[kCountChildren];
+    return find_near(chosen_->find, pyramid, tree, sampling, is_first, entries, count, points);
 }
 
 void MediumPathStage::add_chosen_light(const Pyramid& pyramid, const LightTree& tree,

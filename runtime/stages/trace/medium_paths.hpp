@@ -85,6 +85,12 @@ class MediumPathStage {
                    RayQueue& next, uint32_t taken, RayQueue& to_emitters);
 
   private:
+    /// Runs a kernel that finds points near `lights`, one light or a tree. Returns their number.
+    template <class Lights>
+    uint32_t find_near(Kernel& kernel, const Pyramid& pyramid, const Lights& lights,
+                       const PathSampling& sampling, bool is_first, RayBatch& entries,
+                       uint32_t count, RayBatch& points);
+
     float4 absorption_;
     MediumScattering scattering_;
     DensityGrid density_;

@@ -142,6 +142,7 @@ TEST(ManyLights, BringTheLightOfEachToAMedium) {
         fmt::print("{} lights, g {}: {:.4f} of {:.4f} too much, +- {:.4f}\n", lights, anisotropy,
                    mean, expected, error);
         EXPECT_LT(std::abs(mean), 4 * error);
+        // So the limit above is at most 4 % of the light.
         EXPECT_LT(error, 0.01 * expected);
     }
 }
