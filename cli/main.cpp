@@ -26,7 +26,6 @@
 #include "cli/shared/settings.hpp"
 
 namespace voxelume::cli {
-
 namespace {
 
 int print_help() {
@@ -134,10 +133,8 @@ int kernel_compilers(const std::string& command) {
     if (std::ranges::find(kHelped, command) == kHelped.end()) return 0;
     if (const char* const value = std::getenv("VOXELUME_COMPILERS"); value && *value)
         return std::clamp(std::atoi(value), 0, kMaxKernelCompilers);
-    return int(voxelume::idle_cores() > 0);
+    return int(idle_cores() > 0);
 }
-
-}  // namespace
 
 /// Keeps freed memory in the process: on a CPU, buffers of some hundred megabytes come and go with
 /// every frame, and the system would clear each of their pages again. Measured at 1024 x 1024
@@ -152,39 +149,45 @@ void keep_freed_memory() {
 #endif
 }
 
+/// Runs the command and returns the program's exit code. What is thrown becomes one line.
+int run_command(int count, char** arguments) {
+    try {
+        const std::string command = count > 1 ? arguments[1] : "";
+        const int fault = load_settings_for(command);
+        // This comes before there are threads, so that all of them ignore what this one does.
+        handle_interrupts();
+        configure({.set_driver_environment = true,
+                   .isolate_readers = true,
+                   .kernel_compilers = kernel_compilers(command),
+                   .image_threads = int(std::thread::hardware_concurrency())});
+        const int code = run({arguments + (count > 0 ? 1 : 0), arguments + count});
+        flush_stdout();
+        return code == 0 ? fault : code;
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::cancelled) {
+            tell_interruption([&] { complain(error.what(), error.kind()); });
+            return interrupted_code();
+        }
+        return complain(error.what(), error.kind());
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory: use fewer or larger voxels, or a smaller picture",
+                        ErrorKind::limit);
+    } catch (const std::exception& error) {
+        if (std::ferror(stdout) != 0) return complain(stdout_failure(), ErrorKind::output);
+        return complain(error.what(), ErrorKind::render);
+    }
+}
+
+}  // namespace
 }  // namespace voxelume::cli
 
 int main(int count, char** arguments) {
-    using voxelume::ErrorKind;
     namespace cli = voxelume::cli;
     // If a file reaches `ulimit -f`, the write fails like any other; the process doesn't end.
     std::signal(SIGXFSZ, SIG_IGN);
     cli::open_closed_streams();
     cli::keep_freed_memory();
-    try {
-        const std::string command = count > 1 ? arguments[1] : "";
-        const int fault = cli::load_settings_for(command);
-        // This comes before there are threads, so that all of them ignore what this one does.
-        cli::handle_interrupts();
-        voxelume::configure({.set_driver_environment = true,
-                             .isolate_readers = true,
-                             .kernel_compilers = cli::kernel_compilers(command),
-                             .image_threads = int(std::thread::hardware_concurrency())});
-        const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
-        cli::flush_stdout();
-        return code == 0 ? fault : code;
-    } catch (const voxelume::Error& error) {
-        if (error.kind() == ErrorKind::cancelled) {
-            cli::tell_interruption([&] { cli::complain(error.what(), error.kind()); });
-            return cli::interrupted_code();
-        }
-        return cli::complain(error.what(), error.kind());
-    } catch (const std::bad_alloc&) {
-        return cli::complain("out of memory: use fewer or larger voxels, or a smaller picture",
-                             ErrorKind::limit);
-    } catch (const std::exception& error) {
-        if (std::ferror(stdout) != 0)
-            return cli::complain(cli::stdout_failure(), ErrorKind::output);
-        return cli::complain(error.what(), ErrorKind::render);
-    }
+    const int code = cli::run_command(count, arguments);
+    cli::end_interrupts();
+    return code;
 }

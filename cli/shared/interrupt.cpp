@@ -45,6 +45,7 @@ void tell_end() {
 }
 
 std::atomic<pid_t> ending_thread = 0;
+std::atomic_flag is_ending;  // set by the one thread that ends the process
 
 /// PoCL aborts if the files that it is about to compile or load have been removed. The thread in
 /// which it aborts waits here until another thread ends the process.
@@ -81,6 +82,7 @@ void wait_for_signal(const sigset_t& signals) {
         pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
         std::this_thread::sleep_for(grace.load() - kTogether);
     }
+    if (is_ending.test_and_set()) return;  // the program has reached its own end
     tell_end();
     ending_thread = gettid();
     std::signal(SIGABRT, outlast_abort);
@@ -124,6 +126,11 @@ Interruptible::~Interruptible() {
 
 std::stop_token Interruptible::stop() const {
     return stop_source().get_token();
+}
+
+void end_interrupts() {
+    if (is_ending.test_and_set())
+        for (;;) pause();
 }
 
 int interrupted_code() {

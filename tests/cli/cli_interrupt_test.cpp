@@ -91,6 +91,23 @@ TEST_F(CliInterruptTest, SoDoCommandsThatListenToNothing) {
     EXPECT_THAT(leftovers(), testing::IsEmpty());
 }
 
+TEST_F(CliInterruptTest, ACommandThatEndsMeanwhileLeavesNothingEither) {
+    put_bytes(folder / "model.obj", kTetrahedron);
+    const std::string env =
+        fmt::format("env -u POCL_CACHE_DIR VOXELUME_CACHE_DIR={} ", (folder / "cache").string());
+    const std::string voxelize = "voxelume voxelize model.obj -q -o large.vdb --resolution ";
+    ASSERT_EQ(run_line(env + voxelize + "8").exit_code, 0);
+    // The command takes 0.5 s, and removing the files of its kernels 1 s.
+    const ProgramResult result = run_line(env +
+                                          "LD_PRELOAD=" VXL_WRITE_FAULTS
+                                          " VXL_UNLINK_DELAY=50000 timeout --preserve-status "
+                                          "-s TERM -k 9 0.2 " +
+                                          voxelize + "800");
+    EXPECT_EQ(result.exit_code, 143) << result.err;
+    EXPECT_EQ(result.err, "\nvoxelume: terminated\n");
+    EXPECT_THAT(leftovers(), testing::IsEmpty());
+}
+
 TEST_F(CliInterruptTest, AnIgnoredSignalStaysIgnored) {
     const ProgramResult result = run_line(
         "sh -c 'trap \"\" INT; voxelume render scene.json -q -o a.png --size 1000x1000 --samples 4 "

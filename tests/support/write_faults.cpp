@@ -6,7 +6,7 @@
 // ones, do nothing and fail with that error; with 0 for N, none fails. FOLDER:N:ERRNO:once has that
 // call alone fail. FOLDER:N:wrong has that call alone succeed and write another last byte, if it
 // writes bytes. VXL_WRITE_COUNTS=FILE writes the number of calls to FILE when a process that made
-// calls ends.
+// calls ends. VXL_UNLINK_DELAY=MICROSECONDS makes each file of a folder take that long to remove.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/uio.h>
@@ -140,3 +140,10 @@ VXL_WRITING_CALL(int, ftruncate, (int file, off_t size) noexcept, (file, size), 
 VXL_WRITING_CALL(int, fsync, (int file), (file), file)
 VXL_WRITING_CALL(int, fdatasync, (int file), (file), file)
 VXL_WRITING_CALL(int, rename, (const char* from, const char* to) noexcept, (from, to), to)
+
+extern "C" int unlinkat(int folder, const char* path, int flags) noexcept {
+    static decltype(&unlinkat) const real = next<decltype(unlinkat)>("unlinkat");
+    if (const char* const delay = std::getenv("VXL_UNLINK_DELAY"))
+        usleep(static_cast<useconds_t>(std::atoi(delay)));
+    return real(folder, path, flags);
+}
