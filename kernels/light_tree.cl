@@ -3,6 +3,7 @@
 #include "lib/lanes/work_item.h"
 #include "lib/light/direct_light.h"
 #include "lib/light/light_tree.h"
+#include "lib/light/paths.h"
 
 /// Adds the light of all lights of the tree: each surface point sends a shadow ray to one of them,
 /// whose light counts as many times as the choice was improbable.
@@ -20,11 +21,14 @@ kernel void add_chosen_light(VXL_WORLD_PARAMETERS, VXL_LIGHT_TREE_PARAMETERS, Pa
     const PathSamples samples = samples_of_paths(&sampling, &batch, first);
     const Vector way = load_vector(rays + VXL_RAY_DX * stride, stride, first);
     const Receivers receivers = receivers_of(materials, &p, shape.edge, way);
-    ChosenLights chosen =
-        choose_lights(&tree, &receivers, path_point(&samples, VXL_DECISION_CHOICE), p.lit);
-    Vector from;
-    const Light light = chosen_light(&tree, &chosen, &from);
+    ChosenLights chosen = choose_by_path(&tree, &receivers, &samples, p.lit);
+    Vector middle;
+    const Light light = chosen_light(&tree, &chosen, &middle);
     p.lit = chosen.found;
     if (!lanes_any(p.lit)) return;
-    shine_on(&world, &light, from, (lane_float)0.0f, materials, &queue, &batch, first, p);
+    const Vector from = chosen_points(&tree, &chosen, middle, &samples);
+    lane_float met_too = (lane_float)0.0f;
+    if (tree.has_areas)
+        met_too = area_met_too(&batch, first, sampling.bounces, chosen_areas(&tree, &chosen));
+    shine_on(&world, &light, from, met_too, materials, &queue, &batch, first, p);
 }

@@ -29,8 +29,9 @@ kernel void find_points_near_chosen(PyramidShape shape, VXL_LIGHT_TREE_PARAMETER
     const Receivers receivers = receivers_on_way(ways.segment.origin, shape.edge, ways.direction,
                                                  ways.segment.t_first * ways.metres,
                                                  ways.segment.t_last * ways.metres, extinction);
-    ChosenLights chosen = choose_lights(
-        &tree, &receivers, path_point(&samples, VXL_DECISION_NEAR_CHOICE), ways.active);
+    const uint decision = tree.has_areas ? VXL_DECISION_NEAR_AREA : VXL_DECISION_NEAR_CHOICE;
+    ChosenLights chosen =
+        choose_lights(&tree, &receivers, path_point(&samples, decision), ways.active);
     Vector middle;
     const Light light = chosen_light(&tree, &chosen, &middle);
     ways.active = chosen.found;
@@ -53,6 +54,7 @@ kernel void add_chosen_light_to_medium(PyramidShape shape, VXL_LIGHT_TREE_PARAME
     const ShadowQueue queue = VXL_SHADOW_QUEUE;
     const MediumScattering medium = VXL_MEDIUM_SCATTERING;
     const LightTree tree = VXL_LIGHT_TREE;
+    const PathSamples samples = samples_of_paths(&sampling, &batch, first);
     ChosenLights chosen = {below(first, count), LANES_LOAD(hits, VXL_POINT_LIGHT * stride + first),
                            (lane_float)1.0f};
     if (!are_near) {
@@ -60,13 +62,12 @@ kernel void add_chosen_light_to_medium(PyramidShape shape, VXL_LIGHT_TREE_PARAME
         const Receivers receivers =
             receivers_in_medium(load_vector(rays, stride, first), shape.edge,
                                 unit(scaled(way, shape.edge)), medium.anisotropy);
-        const PathSamples samples = samples_of_paths(&sampling, &batch, first);
-        chosen = choose_lights(&tree, &receivers, path_point(&samples, VXL_DECISION_CHOICE),
-                               chosen.found);
+        chosen = choose_by_path(&tree, &receivers, &samples, chosen.found);
     }
-    Vector from;
-    const Light light = chosen_light(&tree, &chosen, &from);
+    Vector middle;
+    const Light light = chosen_light(&tree, &chosen, &middle);
     if (!lanes_any(chosen.found)) return;
-    shine_into_medium(shape, &light, from, from, medium.anisotropy, &queue, &batch, first,
+    const Vector from = chosen_points(&tree, &chosen, middle, &samples);
+    shine_into_medium(shape, &light, middle, from, medium.anisotropy, &queue, &batch, first,
                       chosen.found);
 }

@@ -26,6 +26,9 @@ namespace {
 // signals.
 constexpr std::chrono::milliseconds kTogether{300};
 
+/// How long a program may still take after its last command when a signal comes.
+constexpr std::chrono::milliseconds kOwnEnd{400};
+
 std::atomic<int> signal_number = 0;
 std::atomic<int> interruptibles = 0;
 std::atomic<std::chrono::milliseconds> grace;  // of the last Interruptible
@@ -82,7 +85,10 @@ void wait_for_signal(const sigset_t& signals) {
         pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
         std::this_thread::sleep_for(grace.load() - kTogether);
     }
-    if (is_ending.test_and_set()) return;  // the program has reached its own end
+    if (is_ending.test_and_set()) {
+        std::this_thread::sleep_for(kOwnEnd);
+        _exit(interrupted_code());
+    }
     tell_end();
     ending_thread = gettid();
     std::signal(SIGABRT, outlast_abort);

@@ -14,9 +14,9 @@ namespace voxelume::cli {
 /// program without any of this. Signals that are ignored when the program starts stay ignored.
 void handle_interrupts();
 
-/// Makes the program end itself from here on, whatever signal comes. This function doesn't return if
-/// a signal is ending the program already: the thread that does so removes files, and kernels
-/// whose files it removed look like errors.
+/// Makes the program end itself from here on, unless that takes longer than 0.4 s after a signal.
+/// This function doesn't return if a signal is ending the program already: the thread that does so
+/// removes files, and kernels whose files it removed look like errors.
 void end_interrupts();
 
 /// A part of the program that ends soon after it is asked to.

@@ -39,6 +39,13 @@ VXL_SIZE_IS(LightNode, 48);
 #define VXL_LIGHT_INNER_COSINE 12
 #define VXL_LIGHT_OUTER_COSINE 13
 
+// The words of a LightAreaRecord that lanes gather.
+#define VXL_AREA_WORDS 8
+#define VXL_AREA_AXIS_X 0
+#define VXL_AREA_IS_ROUND 3
+#define VXL_AREA_AXIS_Y 4
+#define VXL_AREA_SIZE 7
+
 #ifdef __cplusplus
 }  // namespace voxelume
 #endif

@@ -61,6 +61,9 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 // of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
 #define VXL_DECISION_DIRECTION 1u           // of scattered light
+#define VXL_DECISION_NEAR_AREA 0xFFF4u      // as NEAR_CHOICE, of many lights with an area
+#define VXL_DECISION_AREA_CHOICE 0xFFF5u    // as CHOICE, of many lights with an area
+#define VXL_DECISION_AREA_POINT 0xFFF6u     // where on that light
 #define VXL_DECISION_NEAR_CHOICE 0xFFF7u    // which of many lights shines on a ray's way from near
 #define VXL_DECISION_CHOICE 0xFFF8u         // which of many lights a shadow ray is sent to
 #define VXL_DECISION_NEAR 0xFFF9u           // where on a ray's way a light shines from near by

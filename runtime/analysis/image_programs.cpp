@@ -66,8 +66,13 @@ constexpr KernelRow kKernels[] = {
     {"scatter.cl", {"scatter_rays"}, follows},
     {"scatter.cl", {"gather_light", WorkItem::light}, follows},
     {"extend.cl", {"extend_paths"}, always},
-    {"area_light.cl", {"add_area_light"}, always},
-    {"area_light.cl", {"meet_area_light"}, [](const Features& f) { return f.meets_lights; }},
+    {"area_light.cl", {"add_area_light"}, [](const Features& f) { return f.asked_areas; }},
+    {"area_light.cl",
+     {"meet_area_light"},
+     [](const Features& f) { return f.meets_lights && f.asked_areas; }},
+    {"area_light.cl",
+     {"meet_area_lights"},
+     [](const Features& f) { return f.meets_lights && f.chosen_areas; }},
     {"resolve.cl", {"resolve_pixels"}, always},
 };
 
@@ -149,7 +154,8 @@ std::vector<const char*> sight_files(const Features& features, const Scene& scen
     if (features.near_light) files.push_back("near_light.cl");
     if (features.paths) files.push_back("scatter.cl");
     if (features.global) files.push_back("extend.cl");
-    if (features.global && features.area_samples) files.push_back("area_light.cl");
+    if (features.asked_areas || (features.chosen_areas && features.meets_lights))
+        files.push_back("area_light.cl");
     if (makes_image) files.push_back("resolve.cl");
     const ImageChannels& channels = scene.render.channels;
     if (makes_image && (channels.object_matte || channels.material_matte))

@@ -148,12 +148,19 @@ void add_sky(const Sky& sky, const Scene& scene, const Pyramid& world, Features&
     if (sky.kind == SkyKind::map && is_sought) features.sky_rays = emitter_feature(scene.render);
 }
 
+void add_chosen_lights(const Scene& scene, const Pyramid& world, Features& features) {
+    const auto lists = chosen_lights_of(scene, world.frame);
+    features.chosen_lights = !lists.empty();
+    features.chosen_areas = !lists.empty() && lists.back().front().area.has_value();
+    features.asked_areas = asks_areas(scene, world.frame, features.chosen_areas);
+}
+
 /// Adds the features that depend on light, and on where rays continue.
 void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     const bool lit = lights_surfaces(scene, world);
     features.shadows = scene.render.shadows && lit && world.voxel_count > 0;
     features.global = scene.render.light == LightMode::global;
-    features.chosen_lights = lit && count_chosen_lights(scene, world.frame) > 0;
+    if (lit) add_chosen_lights(scene, world, features);
     features.area_samples =
         lit && (has_emissive_samples(scene, world) || (features.global && has_sun(scene.world)) ||
                 has_area_light(scene));

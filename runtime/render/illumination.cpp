@@ -99,15 +99,18 @@ Illumination::Illumination(const Device& device, const Features& features, const
                  ? ShadowQueue{}
                  : allocate_shadow_queue(device, features, max_rays)) {
     if (features.chosen_lights) {
-        const std::vector<LightRecord> chosen = chosen_lights(lights_);
-        if (!chosen.empty())
-            light_tree_.emplace(device, features, shade_.materials(), chosen, world.frame);
+        const std::vector<std::vector<PathLight>> lists = chosen_lights(lights_, world.frame);
+        light_trees_.emplace(device, features, shade_.materials(), lists, world.frame);
+        for (const std::vector<PathLight>& list : lists) {
+            std::erase_if(lights_, [&](const PathLight& light) {
+                return may_be_chosen(light, world.frame) &&
+                       light.area.has_value() == list.front().area.has_value();
+            });
+        }
     }
     std::erase_if(lights_, is_dark);
-    const auto asks_alone = [&](const PathLight& light) {
-        return !light.area && !is_chosen(light);
-    };
-    if (std::ranges::any_of(lights_, asks_alone))
+    const auto has_area = [](const PathLight& light) { return light.area.has_value(); };
+    if (!std::ranges::all_of(lights_, has_area))
         lighting_.emplace(device, features, shade_.materials());
     if (sky_samples_ > 0) sky_lighting_.emplace(device, features, shade_.materials(), shade_.sky());
     if (features.absorbs)
@@ -123,7 +126,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (features.scattering)
         medium_paths_.emplace(device, features, shade_.environment().absorption,
                               medium_->scattering(), medium_->density());
-    if (features.global && features.area_samples && !lights_.empty())
+    if (features.asked_areas || (features.chosen_areas && features.meets_lights))
         area_lighting_.emplace(device, features, shade_.materials());
     if (features.emitters != VXL_EMITTERS_NONE) {
         emitters_ = build_emitters(device, features, scene, world);
@@ -201,8 +204,8 @@ void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
 /// Lights the surfaces that the rays met: blocks 4 and 5.
 void Illumination::direct(RayBatch& entries, uint32_t count, bool from_observer) {
     shade_.surface(world_, entries, count, from_observer);
-    if (light_tree_) {
-        light_tree_->add(world_, sampling_, entries, count, queue_);
+    for (const LightTree& tree : light_trees()) {
+        light_trees_->add(world_, tree, sampling_, entries, count, queue_);
         bring_light(entries, count);
     }
     const auto add = [&](const PathLight& light) {
@@ -212,8 +215,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count, bool from_observer)
         else
             lighting_->add(world_, light.record, entries, count, queue_);
     };
-    for (size_t i = 0; i < lights_.size(); ++i)
-        if (!is_chosen(lights_[i])) bring_light_of(i, entries, count, add);
+    for (size_t i = 0; i < lights_.size(); ++i) bring_light_of(i, entries, count, add);
     for (uint32_t i = 0; i < sky_samples_; ++i) {
         sky_lighting_->add(world_, i, sky_samples_, entries, count, queue_);
         bring_light(entries, count);

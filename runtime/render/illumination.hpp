@@ -85,8 +85,9 @@ class Illumination {
     uint64_t medium_overflows() const;
 
   private:
-    /// True for lights of the tree.
-    bool is_chosen(const PathLight& light) const { return light_tree_ && may_be_chosen(light); }
+    std::span<const LightTree> light_trees() const {
+        return light_trees_ ? std::span(light_trees_->trees()) : std::span<const LightTree>();
+    }
     void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
     void begin_paths(RayBatch& batch, uint32_t count);
     void direct(RayBatch& entries, uint32_t count, bool from_observer);
@@ -108,8 +109,8 @@ class Illumination {
     Device device_;
     Features features_;
     const Pyramid& world_;
-    std::vector<PathLight> lights_;
-    EmitterTable emitters_;  ///< only for features with `emitters`
+    std::vector<PathLight> lights_;  ///< without those of trees
+    EmitterTable emitters_;          ///< only for features with `emitters`
     PathSampling sampling_{};
     std::vector<LightBeams> beams_;  ///< beams of each light; empty if no beams are sent
     uint32_t max_rays_;
@@ -118,7 +119,7 @@ class Illumination {
     ShadeStage shade_;
     Surroundings surroundings_;
     std::optional<LightStage> lighting_;           ///< not compiled in a scene without lights
-    std::optional<LightTreeStage> light_tree_;     ///< only for many lights in global light
+    std::optional<LightTreeStage> light_trees_;    ///< only for many lights in global light
     std::optional<AreaLightStage> area_lighting_;  ///< only for areas in global light
     std::optional<SkyLightStage> sky_lighting_;    ///< only for a sky in local light
     std::optional<MediumStage> medium_;            ///< not compiled if nothing absorbs

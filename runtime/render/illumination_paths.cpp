@@ -43,20 +43,17 @@ void Illumination::send_to_points(const PathLight& light, uint32_t count, PathDe
 void Illumination::light_near_points(RayBatch& entries, uint32_t count, bool is_first,
                                      PathDepth& depth) {
     if (!features_.near_light) return;
-    if (light_tree_) {
-        const LightTree& tree = light_tree_->tree();
+    for (const LightTree& tree : light_trees()) {
         const uint32_t found = medium_paths_->near_chosen(world_, tree, sampling_, is_first,
                                                           entries, count, depth.points);
-        if (found > 0) {
-            medium_paths_->add_chosen_light(world_, tree, sampling_, true, depth.points, found,
-                                            queue_);
-            bring_light(depth.points, found);
-            medium_paths_->add_near(depth.points, found, depth.nodes);
-        }
+        if (found == 0) continue;
+        medium_paths_->add_chosen_light(world_, tree, sampling_, true, depth.points, found, queue_);
+        bring_light(depth.points, found);
+        medium_paths_->add_near(depth.points, found, depth.nodes);
     }
     for (size_t i = 0; i < lights_.size(); ++i) {
         const LightRecord& light = lights_[i].record;
-        if (light.kind == VXL_LIGHT_DIRECTIONAL || is_chosen(lights_[i])) continue;
+        if (light.kind == VXL_LIGHT_DIRECTIONAL) continue;
         const uint32_t found =
             medium_paths_->near(world_, light, sampling_, is_first, entries, count, depth.points);
         if (found == 0) continue;
@@ -70,14 +67,13 @@ void Illumination::light_near_points(RayBatch& entries, uint32_t count, bool is_
 /// `taken` rays.
 NextRays Illumination::light_medium(uint32_t count, uint32_t taken, PathDepth& depth) {
     if (count == 0) return {};
-    if (light_tree_) {
-        medium_paths_->add_chosen_light(world_, light_tree_->tree(), sampling_, false, depth.points,
-                                        count, queue_);
+    for (const LightTree& tree : light_trees()) {
+        medium_paths_->add_chosen_light(world_, tree, sampling_, false, depth.points, count,
+                                        queue_);
         bring_light(depth.points, count);
     }
     const auto send = [&](const PathLight& light) { send_to_points(light, count, depth); };
-    for (size_t i = 0; i < lights_.size(); ++i)
-        if (!is_chosen(lights_[i])) bring_light_of(i, depth.points, count, send);
+    for (size_t i = 0; i < lights_.size(); ++i) bring_light_of(i, depth.points, count, send);
     return medium_paths_->paths(world_, sampling_, emitters_, depth.points, count, depth.nodes,
                                 depth.next, taken, depth.next_to_emitters);
 }
@@ -89,6 +85,9 @@ void Illumination::meet_lights(RayBatch& entries, uint32_t count, PathDepth& dep
         if (light.area && light.area->axis_y.w > 0)
             area_lighting_->meet(world_, light.record, *light.area, surroundings_, entries, count,
                                  depth.nodes);
+    for (const LightTree& tree : light_trees())
+        if (tree.has_areas)
+            area_lighting_->meet_all(world_, tree, surroundings_, entries, count, depth.nodes);
 }
 
 /// Follows the paths that the batch's rays begin, from surface to surface, all together, and fills

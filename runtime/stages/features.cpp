@@ -36,6 +36,7 @@ Defines defines_of_voxels(const Features& f) {
             {"VXL_NEAR_LIGHT", f.near_light},
             {"VXL_SHADOWS", f.shadows},
             {"VXL_AREA_SAMPLES", f.area_samples},
+            {"VXL_CHOSEN_AREAS", f.chosen_areas},
             {"VXL_CHECKER", f.checker},
             {"VXL_TINTED", f.tinted}};
 }

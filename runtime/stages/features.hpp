@@ -35,6 +35,8 @@ struct Features {
     bool shadows = false;         ///< lights can be hidden
     bool area_samples = false;    ///< some light has an area
     bool chosen_lights = false;   ///< paths choose one of many lights at each point
+    bool chosen_areas = false;    ///< some of these lights have an area
+    bool asked_areas = false;     ///< points of paths send rays to each of some lights with an area
     bool checker = false;         ///< some material changes its colour from block to block
     bool tinted = false;          ///< some metal in local light reflects in its own colour
     bool paths = false;           ///< rays are reflected, refracted or continue through surfaces

@@ -4,7 +4,8 @@
 namespace voxelume {
 
 void bind(KernelArguments& to, const LightTree& tree) {
-    to.add(tree.lights, tree.nodes, tree.levels, tree.compared);
+    to.add(tree.lights, tree.areas, tree.nodes, tree.levels, tree.compared,
+           uint32_t(tree.has_areas));
 }
 
 }  // namespace voxelume

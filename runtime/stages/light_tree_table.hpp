@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "kernels/shared/light_tree.h"
+#include "kernels/shared/paths.h"
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/opencl/program.hpp"
 
@@ -12,10 +13,12 @@ namespace voxelume {
 
 /// The tables of a tree of lights.
 struct LightTree {
-    Buffer<LightRecord> lights;  ///< one for each node of the last level
-    Buffer<LightNode> nodes;     ///< by number; number 0 is no node
-    uint32_t levels = 0;         ///< below the root
-    uint32_t compared = 0;       ///< the level whose nodes are compared
+    Buffer<LightRecord> lights;     ///< one for each node of the last level
+    Buffer<LightAreaRecord> areas;  ///< as many, or one where lights are points
+    Buffer<LightNode> nodes;        ///< by number; number 0 is no node
+    uint32_t levels = 0;            ///< below the root
+    uint32_t compared = 0;          ///< the level whose nodes are compared
+    bool has_areas = false;
 };
 
 /// VXL_LIGHT_TREE_PARAMETERS of kernels.

@@ -97,11 +97,11 @@ TEST_F(CliInterruptTest, ACommandThatEndsMeanwhileLeavesNothingEither) {
         fmt::format("env -u POCL_CACHE_DIR VOXELUME_CACHE_DIR={} ", (folder / "cache").string());
     const std::string voxelize = "voxelume voxelize model.obj -q -o large.vdb --resolution ";
     ASSERT_EQ(run_line(env + voxelize + "8").exit_code, 0);
-    // The command takes 0.5 s, and removing the files of its kernels 1 s.
+    // The command takes some 0.4 s, and removing the files of its kernels 2 s.
     const ProgramResult result = run_line(env +
                                           "LD_PRELOAD=" VXL_WRITE_FAULTS
-                                          " VXL_UNLINK_DELAY=50000 timeout --preserve-status "
-                                          "-s TERM -k 9 0.2 " +
+                                          " VXL_UNLINK_DELAY=100000 timeout --preserve-status "
+                                          "-s TERM -k 9 0.1 " +
                                           voxelize + "800");
     EXPECT_EQ(result.exit_code, 143) << result.err;
     EXPECT_EQ(result.err, "\nvoxelume: terminated\n");

@@ -7,6 +7,14 @@
 #include "lib/sampling/directions.h"
 #include "shared/scene.h"
 
+/// The points at `p` of areas around `middle`, in voxels.
+static inline Vector point_of_area(SquarePoint p, Vector middle, Vector axis_x, Vector axis_y) {
+    const Vector at = {fma(p.x, axis_x.x, fma(p.y, axis_y.x, middle.x)),
+                       fma(p.x, axis_x.y, fma(p.y, axis_y.y, middle.y)),
+                       fma(p.x, axis_x.z, fma(p.y, axis_y.z, middle.z))};
+    return at;
+}
+
 /// The points of light number `number` that the paths' samples choose, in voxels. All points are
 /// equally probable.
 static inline Vector area_point(LightRecord light, LightAreaRecord area, const PathSamples* samples,
@@ -18,10 +26,8 @@ static inline Vector area_point(LightRecord light, LightAreaRecord area, const P
         p.x = fma(p.x, 2.0f, -1.0f);
         p.y = fma(p.y, 2.0f, -1.0f);
     }
-    const Vector from = {fma(p.x, area.axis_x.x, fma(p.y, area.axis_y.x, light.position.x)),
-                         fma(p.x, area.axis_x.y, fma(p.y, area.axis_y.y, light.position.y)),
-                         fma(p.x, area.axis_x.z, fma(p.y, area.axis_y.z, light.position.z))};
-    return from;
+    return point_of_area(p, vector_of(light.position), vector_of(area.axis_x),
+                         vector_of(area.axis_y));
 }
 
 /// Where rays run into a light.

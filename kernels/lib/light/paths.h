@@ -8,6 +8,7 @@
 #include "lib/traverse/medium_set.h"
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/surroundings.h"
+#include "shared/paths.h"
 
 /// Marks an entry that sends no ray and so has no node.
 #define VXL_NO_CHILD 0xFFFFFFFFu
@@ -101,6 +102,15 @@ static inline lane_int shares_light(const RayBatch* batch, uint first) {
         shares &= ~(has_length(offset) & LANE_MASK((packed >> VXL_KIND_SHIFT) == VXL_KIND_CUBES));
     }
     return shares;
+}
+
+/// The part of lights' `area` that paths from hits may run into; 0 where the paths end.
+static inline lane_float area_met_too(const RayBatch* batch, uint first, uint most_bounces,
+                                      lane_float area) {
+    const lane_uint state = LANES_LOAD(batch->paths, VXL_PATH_STATE * batch->stride + first);
+    const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
+    const lane_int goes_on = LANE_MASK(bounces < most_bounces);
+    return LANES_SELECT(goes_on & shares_light(batch, first), area, (lane_float)0.0f);
 }
 
 /// Adds a channel's light to the nodes that the `valid` lanes name, at most one lane per node. With

@@ -122,9 +122,11 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
     memory.rays = allocate_rays(device, features, counts);
     memory.tables = count_tables(device, scene);
     if (features.chosen_lights) {
-        const size_t lights = count_chosen_lights(scene, world.frame);
-        memory.light_tree = allocate_light_tree(device, lights);
-        memory.light_tree_host_bytes = light_tree_host_bytes(lights);
+        for (const auto& lights : chosen_lights_of(scene, world.frame)) {
+            memory.light_trees.push_back(
+                allocate_light_tree(device, lights.size(), lights.front().area.has_value()));
+            memory.light_tree_host_bytes += light_tree_host_bytes(lights.size());
+        }
     }
     if (features.emitters != VXL_EMITTERS_NONE) count_emitters(device, scene, world, memory);
     if (features.sky == VXL_SKY_MAP) count_sky(device, *scene.world.sky, memory);

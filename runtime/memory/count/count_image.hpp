@@ -18,8 +18,8 @@ struct ImageMemory {
     DilatedOccupancy dilated_occupancy;
     Buffer<uint32_t> beams;
     std::vector<Buffer<float>> light_beams;
-    LightTree light_tree;
-    double light_tree_host_bytes = 0;  ///< main memory while the tree is made
+    std::vector<LightTree> light_trees;
+    double light_tree_host_bytes = 0;  ///< main memory while they are made
     DensityGrid density;
     Buffer<uint8_t> tables;  ///< tables of materials, objects and samples
     Buffer<uint8_t> emitters;

@@ -10,6 +10,7 @@
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/features.hpp"
+#include "runtime/stages/light_tree_table.hpp"
 #include "runtime/stages/ray_batch.hpp"
 #include "runtime/stages/trace/scatter.hpp"
 
@@ -32,11 +33,16 @@ class AreaLightStage {
     void meet(const Pyramid& pyramid, const LightRecord& light, const LightAreaRecord& area,
               const Surroundings& surroundings, RayBatch& batch, uint32_t count, NodeLight& nodes);
 
+    /// Adds the light of all lights of a tree in the same way. Only for features with
+    /// `chosen_areas`, too.
+    void meet_all(const Pyramid& pyramid, const LightTree& lights, const Surroundings& surroundings,
+                  RayBatch& batch, uint32_t count, NodeLight& nodes);
+
   private:
     Buffer<MaterialRecord> materials_;
     Program program_;
     Kernel add_;
-    std::optional<Kernel> meet_;
+    std::optional<Kernel> meet_, meet_all_;
 };
 
 }  // namespace voxelume

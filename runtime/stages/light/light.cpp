@@ -25,6 +25,14 @@ LightRecord light_record(const Light& light, const GridFrame& world) {
     return record;
 }
 
+double radius_of(const LightAreaRecord& area, const GridFrame& world) {
+    const auto length = [&](const float4& axis) {
+        return glm::length(glm::dvec3(axis.x, axis.y, axis.z) * world.voxel_edge);
+    };
+    const double x = length(area.axis_x), y = length(area.axis_y);
+    return area.axis_x.w != 0 ? std::max(x, y) : std::hypot(x, y);
+}
+
 bool may_light(const LightRecord& light, const GridFrame& world) {
     // The kernel has directions and cosines as floats: 2^-24 of a cosine near 1 is 3.5e-4 radians.
     constexpr double kRounding = 1e-6, kAngleRounding = 1e-3;

@@ -2,6 +2,10 @@
 // surface points + a light -> radiance, through a queue of shadow rays.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
+#include "kernels/shared/paths.h"
 #include "kernels/shared/scene.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
@@ -11,8 +15,18 @@
 
 namespace voxelume {
 
+/// A light that a scene lists, and its area if it has one.
+struct PathLight {
+    LightRecord record;
+    std::optional<LightAreaRecord> area;
+    uint32_t number = 0;  ///< number of its random samples, which doesn't depend on other lights
+};
+
 /// The light's record for kernels, in the voxels of the world.
 LightRecord light_record(const Light& light, const GridFrame& world);
+
+/// The radius of the ball around a light with this area, in metres.
+double radius_of(const LightAreaRecord& area, const GridFrame& world);
 
 /// True if the light's direction lets it reach some point of the world. Only spot lights and area
 /// light samples can fail.
