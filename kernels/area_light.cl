@@ -135,19 +135,20 @@ kernel void meet_area_lights(PyramidShape shape, VXL_LIGHT_TREE_PARAMETERS,
     const Surroundings around = VXL_SURROUNDINGS;
     const MeetingPaths paths_here = meeting_paths(shape, &around, &batch, &nodes, first, count);
     const Vector way = unit(scaled(paths_here.way.direction, shape.edge));
-    const uint leaves = 1u << tree_levels;
+    const LightTree tree = VXL_LIGHT_TREE;
+    const uint leaves = 1u << tree.levels;
     uint node = 1;
     do {
-        const Nodes n = load_node(tree_nodes + node * VXL_NODE_WORDS);
-        if (tree_nodes[node * VXL_NODE_WORDS + VXL_NODE_POWER] > 0.0f &&
+        const Nodes n = load_node(tree.nodes + node * VXL_NODE_WORDS);
+        if (tree.nodes[node * VXL_NODE_WORDS + VXL_NODE_POWER] > 0.0f &&
             comes_near(&paths_here, way, &n)) {
             if (node < leaves) {
                 node *= 2;
                 continue;
             }
             const uint leaf = node - leaves;
-            meet_light(&paths_here, ((global const LightRecord*)tree_lights)[leaf],
-                       ((global const LightAreaRecord*)tree_areas)[leaf], first);
+            meet_light(&paths_here, ((global const LightRecord*)tree.lights)[leaf],
+                       ((global const LightAreaRecord*)tree.areas)[leaf], first);
         }
         // The next node to the right, as high up as possible.
         for (++node; (node & 1) == 0; node /= 2) {

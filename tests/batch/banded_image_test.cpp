@@ -64,6 +64,13 @@ Scene large_scene() {
     return scene;
 }
 
+/// Devices of 24 MB, or of as many as asked for, each with memory of its own.
+std::vector<Device> small_devices(size_t count, uint64_t megabytes = kMegabytes) {
+    std::vector<Device> devices;
+    while (devices.size() < count) devices.push_back(device_with_memory(megabytes));
+    return devices;
+}
+
 /// Runs the frames; each must end in bands.
 std::map<int, std::shared_ptr<Joined>> run_in_bands(const std::vector<Device>& devices,
                                                     const Scene& scene, BatchOptions options) {
@@ -123,9 +130,7 @@ TEST(BandedImage, ThatDevicesShareHasTheBitsOfTheWhole) {
 TEST(BandedImage, OfEachFrameHasTheBitsOfTheWhole) {
     const Scene scene = large_scene();
     for (const size_t devices : {1, 2}) {
-        const auto joined =
-            run_in_bands(std::vector<Device>(devices, device_with_memory(kMegabytes)), scene,
-                         {.frames = {1, 4}});
+        const auto joined = run_in_bands(small_devices(devices), scene, {.frames = {1, 4}});
         for (const int frame : {1, 4}) joined.at(frame)->expect_like(whole_image(scene, frame));
     }
 }
@@ -137,8 +142,7 @@ TEST(BandedImage, OfPixelsThatContrastAndAreBlurredHasTheBitsOfTheWhole) {
     scene.render.filter.width = 3.5;
     scene.render.channels.object_matte = scene.render.channels.albedo = true;
     for (const size_t devices : {1, 2}) {
-        const auto joined = run_in_bands(std::vector<Device>(devices, device_with_memory(40)),
-                                         scene, {.frames = {2}});
+        const auto joined = run_in_bands(small_devices(devices, 40), scene, {.frames = {2}});
         joined.at(2)->expect_like(whole_image(scene, 2));
     }
 }
@@ -154,8 +158,7 @@ TEST(BandedImage, OfSeveralMomentsHasTheBitsOfTheWhole) {
     });
     ASSERT_TRUE(whole);
     for (const size_t devices : {1, 2}) {
-        const auto joined = run_in_bands(
-            std::vector<Device>(devices, device_with_memory(kMegabytes)), scene, {.frames = {3}});
+        const auto joined = run_in_bands(small_devices(devices), scene, {.frames = {3}});
         joined.at(3)->expect_like(*whole);
     }
 }
@@ -189,8 +192,8 @@ TEST(BandedImage, ThatIsCancelledOrFailsIsNeverFinished) {
             options.stop = stop.get_token();
             bool is_output = false;
             const auto run = [&] {
-                return render_frames(std::vector<Device>(devices, device_with_memory(kMegabytes)),
-                                     scene, options, [&](const FrameResult&) { is_output = true; });
+                return render_frames(small_devices(devices), scene, options,
+                                     [&](const FrameResult&) { is_output = true; });
             };
             if (fails) {
                 EXPECT_THAT(error_of(run).what(), HasSubstr("the disk is full"));

@@ -227,7 +227,7 @@ TEST_F(CliFaultsTest, LaunchesThatLackMemoryLoseNoTilesOfASharedImage) {
     ASSERT_EQ(render("").exit_code, 0);
     const std::map<std::string, std::string> expected = files();
     int again = 0;
-    for (int number = 1; number < 80; number += number < 15 ? 7 : 3) {
+    for (int number = 1; number < 80; number += number < 15 ? 7 : 2) {
         remove_files();
         const ProgramResult result =
             render(fmt::format("VXL_FAULT=clEnqueueNDRangeKernel:{}:-5", number));

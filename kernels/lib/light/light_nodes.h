@@ -147,7 +147,7 @@ static inline lane_float area_weight(const Nodes* n, const Axes* axes, const Rec
         returned = returned_light(p, l, fmin(fmax(facing, above), one), ball_sine * ball_sine);
     }
     const lane_float emitted = clamp(before * inverse, VXL_LEAST_EMITTING_COSINE, 1.0f);
-    const lane_float falloff = exact_sqrt((squared + xx) * (squared + yy));
+    const lane_float falloff = exact_sqrt(squared + xx) * exact_sqrt(squared + yy);
     return LANES_SELECT(reaches, exact_divide(n->power * returned * emitted, falloff),
                         (lane_float)0.0f);
 }
