@@ -61,7 +61,12 @@ static inline MeetingPaths meeting_paths(PyramidShape shape, const Surroundings*
                                          const RayBatch* batch, const NodeLight* nodes, uint first,
                                          uint count) {
     const uint stride = batch->stride;
-    MeetingPaths m = {shape, batch, nodes, *around, whole_segment(batch, first)};
+    MeetingPaths m;
+    m.shape = shape;
+    m.batch = batch;
+    m.nodes = nodes;
+    m.around = *around;
+    m.way = whole_segment(batch, first);
     m.travelled = (lane_float)0.0f;
     if (VXL_TRAVELS) m.travelled = path_float(batch->paths, VXL_PATH_TRAVELLED, stride, first);
     m.state = LANES_LOAD(batch->paths, VXL_PATH_STATE * stride + first);
