@@ -118,8 +118,8 @@ kernel void meet_area_light(PyramidShape shape, LightRecord light, LightAreaReco
 }
 
 #if VXL_CHOSEN_AREAS
-/// True if some of the paths' lines come near the ball of a node: at most its radius and 1e-5 of
-/// the distance, which is more than rounding.
+/// True if some of the paths' lines come near the ball of a node: at most its radius r and, for
+/// rounding, e = 1e-5 of the distance. The test is wider, since (r + e)^2 <= 2 (r^2 + e^2).
 static inline bool comes_near(const MeetingPaths* p, Vector way, const Nodes* n) {
     const Vector to = scaled(difference(n->middle, p->way.origin), p->shape.edge);
     const lane_float ahead = dot_product(to, way), distance = dot_product(to, to);

@@ -58,9 +58,12 @@ TEST(ManyAreaLights, BringTheLightOfEachToAMedium) {
 TEST(ManyAreaLights, AreAllShownByMirrors) {
     for (const int lights : {9, 40, 200}) {
         Scene scene = mirrors_alone(with_areas(lit_yard(lights, 13, 16)));
-        scene.render.size = {48, 32};
-        for (Light& light : scene.lights) light.radius *= 4, light.size *= 4;
+        scene.render.size = {96, 64};
+        auto& launches = shared_device().counters().launches;
+        launches.clear();
         const Image all = image_of(scene);
+        EXPECT_GT(launches["meet_area_lights"], 0u);
+        EXPECT_EQ(launches["meet_area_light"], 0u);
         std::vector<double> expected(all.planes.at("G").size());
         Scene part = scene;
         for (size_t i = 0; i < scene.lights.size(); i += 8) {
@@ -73,7 +76,7 @@ TEST(ManyAreaLights, AreAllShownByMirrors) {
         size_t lit = 0;
         for (size_t k = 0; k < expected.size(); ++k) {
             lit += expected[k] > 0;
-            // The samples' sums have another order.
+            // Sums of 16 samples and up to 200 lights are rounded in another order.
             EXPECT_NEAR(all.planes.at("G")[k], expected[k], 1e-5 * (expected[k] + 1)) << k;
         }
         EXPECT_GT(lit, 20u);
@@ -118,6 +121,10 @@ TEST(ManyAreaLights, AreChosenOnlyWhereThereAreMany) {
                 ElementsAre("add_area_light", "add_chosen_light", "meet_area_light"));
     EXPECT_THAT(launched(with_areas(lit_yard(17, 7, 1), 8)),
                 ElementsAre("add_light", "add_chosen_light", "meet_area_lights"));
+    // Lights that are large for their world are asked each.
+    Scene large = with_areas(lit_yard(9, 7, 1));
+    large.lights[0].radius = 0.3;  // of a diagonal of 3 m
+    EXPECT_THAT(launched(large), ElementsAre("add_area_light", "meet_area_light"));
     image_of(with_areas(foggy_yard(9, 7, 1, 0)));
     EXPECT_EQ(launches["add_area_light_to_medium"], 0u);
     EXPECT_GT(launches["add_chosen_light_to_medium"], 0u);
