@@ -2,10 +2,12 @@
 // The file in memory that each input of a fuzz target replaces.
 #pragma once
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <map>
 #include <span>
 #include <string>
 
@@ -23,9 +25,16 @@ inline std::filesystem::path fuzz_file() {
     return folder / fuzz_name();
 }
 
+/// Replaces the bytes of a file that nothing else writes. It stays open, since opening a file takes
+/// as long as reading a small one.
 inline void write_bytes(const std::filesystem::path& file, std::span<const uint8_t> bytes) {
-    std::ofstream(file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    static std::map<std::filesystem::path, int> open_files;
+    const auto [known, is_new] = open_files.try_emplace(file);
+    int& descriptor = known->second;
+    if (is_new) descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (pwrite(descriptor, bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()) ||
+        ftruncate(descriptor, off_t(bytes.size())) != 0)
+        std::abort();
 }
 
 /// Writes an input into two files. Its first two bytes are the number of the following bytes that

@@ -102,9 +102,11 @@ std::vector<uint8_t> with_checksum(std::span<const uint8_t> bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    static const std::filesystem::path file = fuzz_file();
+    static const std::filesystem::path given = fuzz_file();
+    static const std::filesystem::path made = given.parent_path() / "made.vxm";
     if (size == 0) return 0;
     const std::span<const uint8_t> bytes(data + 1, size - 1);
+    const std::filesystem::path& file = data[0] == 0 ? given : made;
     if (data[0] == 0)
         write_bytes(file, with_checksum(bytes));
     else

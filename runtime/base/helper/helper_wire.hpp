@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -136,31 +137,32 @@ class WireReceiver {
     void bytes(void* data, size_t size) {
         char* target = static_cast<char*>(data);
         while (size > 0) {
-            if (first_ == block_.size() && size >= kBlock) {  // large arrays aren't copied
+            if (first_ == filled_ && size >= kBlock) {  // large arrays aren't copied
                 const size_t length = helper_.read(target, size);
                 target += length;
                 size -= length;
                 continue;
             }
-            if (first_ == block_.size()) refill();
-            const size_t length = std::min(size, block_.size() - first_);
-            std::copy_n(block_.data() + first_, length, target);
+            if (first_ == filled_) refill();
+            const size_t length = std::min(size, filled_ - first_);
+            std::copy_n(block_.get() + first_, length, target);
             first_ += length;
             target += length;
             size -= length;
         }
     }
     void refill() {
-        block_.resize(kBlock);
-        block_.resize(helper_.read(block_.data(), kBlock));
+        if (!block_) block_ = std::make_unique_for_overwrite<char[]>(kBlock);
+        filled_ = helper_.read(block_.get(), kBlock);
         first_ = 0;
     }
 
     static constexpr uint64_t kMaxEntries = 1 << 20, kMaxText = 1 << 30;
-    static constexpr size_t kBlock = 1 << 18;
+    static constexpr size_t kBlock = 1 << 16;  ///< larger memory would be mapped anew each time
     HelperProcess& helper_;
-    std::vector<char> block_;
-    size_t first_ = 0;  ///< the next byte of the block
+    std::unique_ptr<char[]> block_;
+    size_t filled_ = 0;  ///< bytes of the block
+    size_t first_ = 0;   ///< the next one of them
 };
 
 }  // namespace voxelume

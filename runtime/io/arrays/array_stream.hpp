@@ -70,14 +70,12 @@ inline bool in_any_order(const CellArray& array) {
 }
 
 /// Calls `use(first, end)` for ranges that cover the array's layers, at the same time where they
-/// can be read in any order and are large enough for threads. Ranges begin at multiples of
-/// `thickness`.
+/// can be read in any order. Ranges begin at multiples of `thickness`.
 template <class Use>
 void for_layer_ranges(const CellArray& array, int thickness, const Use& use) {
-    constexpr uint64_t kFewCells = 4096;
     const int layers = array.counts.z;
-    if (!in_any_order(array) || array.cells() < kFewCells) return use(0, layers);
-    for_ranges((layers + thickness - 1) / thickness, [&](int first, int end) {
+    if (!in_any_order(array)) return use(0, layers);
+    for_ranges((layers + thickness - 1) / thickness, array.cells(), [&](int first, int end) {
         use(first * thickness, std::min(end * thickness, layers));
     });
 }

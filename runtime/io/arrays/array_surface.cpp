@@ -101,7 +101,7 @@ class ArraySurface {
     void find_close() {
         close_ = CellBits(array_.counts);
         std::atomic<bool> has_cut = false;
-        for_ranges(array_.counts.z, [&](int first, int end) {
+        for_ranges(array_.counts.z, array_.cells(), [&](int first, int end) {
             std::vector<uint64_t> pairs(close_.words());
             for (int z = first; z < end; ++z)
                 for (int y = 0; y < array_.counts.y; ++y) {
@@ -223,9 +223,10 @@ class ArraySurface {
                                      slabs.first(), units);
                 });
         });
-        for_ranges(int(model_.coordinates.size()), [&](int first, int end) {
-            for (int slot = first; slot < end; ++slot) fill_pad(size_t(slot));
-        });
+        for_ranges(int(model_.coordinates.size()), model_.coordinates.size() * kVoxelsPerBrick,
+                   [&](int first, int end) {
+                       for (int slot = first; slot < end; ++slot) fill_pad(size_t(slot));
+                   });
     }
 
     /// Fills the nodes of a run. Far from the surface they store only their side, however flat the

@@ -67,8 +67,8 @@ void CellBits::dilate(int reach) {
                     to[word] |= next[size * size_t(from) + word];
         }
     };
-    for_ranges(counts_.z, widen_layers);
-    for_ranges(counts_.z, join_layers);
+    for_ranges(counts_.z, bits_.size(), widen_layers);
+    for_ranges(counts_.z, bits_.size(), join_layers);
 }
 
 }  // namespace voxelume

@@ -54,7 +54,7 @@ void append_values(const std::array<uint32_t, 256>& values, const uint8_t* cells
 template <class Use>
 void for_brick_ranges(size_t count, const Use& use) {
     if (count >= kManyBricks)
-        for_ranges(int(count), use);
+        for_ranges(int(count), count * kVoxelsPerBrick, use);
     else
         use(0, int(count));
 }
@@ -206,7 +206,7 @@ size_t VoxCells::mark_all() {
 
 bool VoxCells::add_together(const VoxModel& model, const Steps& steps) {
     std::atomic<size_t> added = 0;
-    for_ranges(int((model.voxels + kBlock - 1) / kBlock), [&](int first, int end) {
+    for_ranges(int((model.voxels + kBlock - 1) / kBlock), model.voxels, [&](int first, int end) {
         added += add_range(model, steps, kBlock * size_t(first),
                            std::min(kBlock * size_t(end), size_t(model.voxels)));
     });
