@@ -114,7 +114,9 @@ static inline Samples earlier_samples(const Camera* camera, const Pixels* at, si
 
 /// Adds samples to the sums `s`. `samples` is the number per pixel, `first_ray` the ray of the
 /// first.
-static inline Samples sum_samples(const RayBatch* batch, uint first_ray, uint samples, Samples s) {
+static inline Samples sum_samples(const RayBatch* batch, uint first_ray, uint samples,
+                                  Samples none) {
+    Samples s = none;
     for (uint sample = 0; sample < samples; ++sample) {
         const uint ray = first_ray + sample * 16u;
         if (VXL_SHOWS_COLOR) {

@@ -88,6 +88,16 @@ static inline int sum_from(short start, short factor) {
     return (int)(short)(four.x + four.y + four.z + four.w) * factor;
 }
 
+/// Rounds of a generator (Marsaglia 2003). Mesa's llvmpipe stops loops after 65,535.
+static inline uint shift_often(uint number, int rounds) {
+    for (int k = 0; k < rounds; ++k) {
+        number ^= number << 13;
+        number ^= number >> 17;
+        number ^= number << 5;
+    }
+    return number;
+}
+
 /// One work-item answers one column. The atomics' answers are in one row.
 kernel void answer_numbers(global const uint* restrict questions, global uint* restrict answers) {
     const uint first = work_item();
@@ -102,6 +112,7 @@ kernel void answer_numbers(global const uint* restrict questions, global uint* r
     answers[QUESTION(VXL_KNOWN_LEADING_ZEROS)] = clz((uint)i >> (j & 31));
     answers[QUESTION(VXL_KNOWN_PRIVATE_ARRAY)] = sum_of_squares((uint)i);
     answers[QUESTION(VXL_KNOWN_VECTOR)] = (uint)sum_from((short)(i & 15), (short)j);
+    answers[QUESTION(VXL_KNOWN_LONG_LOOP)] = shift_often((uint)j, 70000 + (i & 63));
     global uint* atomics = answers + VXL_KNOWN_ATOMICS * VXL_KNOWN_COLUMNS;
     atomic_inc(&atomics[0]);
     atomic_add(&atomics[1], (uint)j);

@@ -50,8 +50,9 @@ typedef struct {
 
 /// Turns a gradient in the voxels of the hits into a unit normal in metric space.
 static inline Vector normal_of(const WorldView* world, const ShadedHit* h, Vector gradient) {
-    if (VXL_INSTANCES) gradient = world_gradient(&h->ray, gradient, h->of_instance);
-    return unit(scaled(gradient, world->shape.inverse_edge));
+    const Vector of_world =
+        VXL_INSTANCES ? world_gradient(&h->ray, gradient, h->of_instance) : gradient;
+    return unit(scaled(of_world, world->shape.inverse_edge));
 }
 
 /// Sets the points of cubes, exactly on the crossed face, and that face's normals, towards the ray.

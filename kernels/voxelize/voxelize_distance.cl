@@ -48,7 +48,8 @@ static inline void narrow(SliceRange* range, float at, float slope, float limit)
 /// are surely farther away are left out (the margin is far above rounding), so no stored value
 /// depends on the result.
 static inline SliceRange concerned_slices(const TriangleFrame* f, float x, float y, float band,
-                                          SliceRange range) {
+                                          SliceRange all) {
+    SliceRange range = all;
     const float half_x = 0.5f * (TILE_X - 1), half_y = 0.5f * (TILE_Y - 1), margin = 0.01f;
     const float3 n = f->height.gradient;
     const float at = f->height.at + n.x * x + n.y * y;

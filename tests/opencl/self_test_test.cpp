@@ -113,6 +113,15 @@ TEST(KnownAnswers, OfIntegersAreExact) {
         }
         return sum;
     });
+    expect_row(VXL_KNOWN_LONG_LOOP, [](int k) {
+        auto number = uint32_t(j_of(k));
+        for (int left = 70000 + (i_of(k) & 63); left > 0; --left) {
+            number ^= number << 13;
+            number ^= number >> 17;
+            number ^= number << 5;
+        }
+        return number;
+    });
     expect_row(VXL_KNOWN_VECTOR, [](int k) {
         const int start = i_of(k) & 15;
         return (120 - start * (start - 1) / 2) * int16_t(j_of(k));

@@ -4,7 +4,7 @@
 //
 // OpenCL lets a device miss x/y by 2.5 units in the last place, and NVIDIA's devices do. So kernels
 // divide only by these functions, except for constants and for bounds of voxelization that merely
-// select the voxels to be tested exactly; .ci/kernel_arithmetic checks this. From any such start,
+// select the voxels to be tested exactly; .ci/kernel_rules checks this. From any such start,
 // Markstein's correction by fma gives the correctly rounded result, if results and residuals are in
 // the normal range. VXL_NATIVE_DIVIDE = 1 says that the device's own operations are already
 // correctly rounded, as with every CPU driver.

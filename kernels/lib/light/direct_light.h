@@ -248,7 +248,8 @@ static inline void send_or_add(const ShadowQueue* queue, const LitRays* r, lane_
 static inline void shine_on(const WorldView* world, const Light* light, Vector from,
                             lane_float area, global const float* restrict materials,
                             const ShadowQueue* queue, const RayBatch* batch, uint first,
-                            LitPoints p) {
+                            LitPoints points) {
+    LitPoints p = points;
     const float4 edge = world->shape.edge;
     Incidence incidence = incidence_of(light, from, edge, p.position, p.shading_normal, p.lit);
     p.lit = incidence.lit;

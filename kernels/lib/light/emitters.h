@@ -72,7 +72,8 @@ static inline lane_float side_weight(lane_float at, lane_uint sides, uint low) {
 }
 
 /// The boxes of emitters `number`, seen from points in the world's voxels.
-static inline BoxView view_box(const Emitters* e, lane_uint number, Vector point) {
+static inline BoxView view_box(const Emitters* e, lane_uint number, Vector from) {
+    Vector point = from;
     const lane_uint r = number * (uint)VXL_EMITTER_WORDS;
     global const uint* words = (global const uint*)e->records;
     BoxView b;

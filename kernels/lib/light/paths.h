@@ -138,9 +138,9 @@ static inline void count_lanes(lane_int mask, global uint* counter) {
 static inline MediumSet cross_counted(MediumSet in, lane_uint packed, lane_int leaving,
                                       lane_int crossing, global uint* overflows) {
     lane_int full;
-    in = cross_medium_or_overflow(in, packed, leaving, crossing, &full);
+    const MediumSet crossed = cross_medium_or_overflow(in, packed, leaving, crossing, &full);
     if (VXL_MEDIUM_SET_CAPPED) count_lanes(full, overflows);
-    return in;
+    return crossed;
 }
 
 #endif

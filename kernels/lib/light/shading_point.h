@@ -19,8 +19,8 @@
 
 /// Converts a gradient in the voxels of the hits to metric space.
 static inline Vector metric_gradient(const WorldView* world, const ShadedHit* h, Vector g) {
-    if (VXL_INSTANCES) g = world_gradient(&h->ray, g, h->of_instance);
-    return scaled(g, world->shape.inverse_edge);
+    const Vector of_world = VXL_INSTANCES ? world_gradient(&h->ray, g, h->of_instance) : g;
+    return scaled(of_world, world->shape.inverse_edge);
 }
 
 /// Sets the normals of triangles: the mean of their corners' normals, flipped where the surface is

@@ -139,10 +139,10 @@ static inline lane_int sees_background(const RayBatch* batch, uint first, uint f
 
 /// The radiance of the sky along `way`, in voxels with this edge. The sun's disc is seen by rays
 /// that no matt surface has scattered last; matt surfaces sample it as a light.
-static inline void see_sky(lane_int hit, Vector way, float4 edge, const SkyView* sky,
+static inline void see_sky(lane_int hit, Vector direction, float4 edge, const SkyView* sky,
                            const RayBatch* batch, uint first, uint from_observer,
                            lane_float* light) {
-    way = unit(scaled(way, edge));
+    const Vector way = unit(scaled(direction, edge));
     lane_float seen[3];
     sky_light(sky, way, seen);
     if (VXL_SKY_RAYS) share_sky_light(&sky->map, way, batch, first, seen);

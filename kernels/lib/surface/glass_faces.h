@@ -19,10 +19,11 @@ typedef struct {
 /// The cell's neighbour along `axis`, towards larger coordinates where `up`.
 static inline FaceCell neighbor_of(FaceCell cell, lane_uint axis, lane_int up) {
     const lane_int step = -1 - 2 * up;
-    cell.x += step & LANE_MASK(axis == 0u);
-    cell.y += step & LANE_MASK(axis == 1u);
-    cell.z += step & LANE_MASK(axis == 2u);
-    return cell;
+    FaceCell next = cell;
+    next.x += step & LANE_MASK(axis == 0u);
+    next.y += step & LANE_MASK(axis == 1u);
+    next.z += step & LANE_MASK(axis == 2u);
+    return next;
 }
 
 /// The packed attributes of the glass cubes in the `asked` lanes' cells; VXL_NO_MEDIUM where there

@@ -96,8 +96,8 @@ static inline Vector on_surface(Vector v, Vector normal, Vector way) {
 }
 
 /// Converts a vector in metres to the voxels of the hits.
-static inline Vector in_hit_voxels(const ShadedHit* h, Vector v, float4 inverse_edge) {
-    v = scaled(v, inverse_edge);
+static inline Vector in_hit_voxels(const ShadedHit* h, Vector metric, float4 inverse_edge) {
+    const Vector v = scaled(metric, inverse_edge);
     if (!VXL_INSTANCES) return v;
     const lane_float* m = h->ray.map;
     const Vector own = {fma(m[0], v.x, fma(m[1], v.y, m[2] * v.z)),

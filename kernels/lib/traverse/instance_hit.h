@@ -17,7 +17,8 @@ typedef struct {
 /// unchanged and get a map of zeros, because uninitialised numbers must not reach a built-in
 /// function, even if its result is not used.
 static inline HitRay transform_hits(global const InstanceRecord* restrict records,
-                                    lane_uint instance, lane_int of_instance, HitRay ray) {
+                                    lane_uint instance, lane_int of_instance, HitRay in_world) {
+    HitRay ray = in_world;
     const Vector o = ray.origin, d = ray.direction;
     const lane_float inverse_squared = exact_reciprocal(dot_product(d, d));
     const lane_float t = ray.t;

@@ -35,7 +35,8 @@ static inline SquarePoint lens_point(const Camera* camera, lane_uint column, lan
 /// Moves the rays of a pyramid's samples to start at points p of the lens, which lies around the
 /// observer at right angles to Z_E. At the depth where the lens is focused, they reach the same
 /// points as the observer's own rays.
-static inline SightRay through_lens(const Camera* camera, SightRay ray, SquarePoint p) {
+static inline SightRay through_lens(const Camera* camera, SightRay middle, SquarePoint p) {
+    SightRay ray = middle;
     ray.direction.x = fma(p.x, -camera->lens_slope, ray.direction.x);
     ray.direction.y = fma(p.y, -camera->lens_slope, ray.direction.y);
     ray.start.x = fma(ray.direction.x, camera->lead, p.x * camera->lens_radius);

@@ -84,15 +84,16 @@ static inline MediumSet cross_medium_or_overflow(MediumSet in, lane_uint packed,
     const lane_uint none = (lane_uint)VXL_NO_MEDIUM;
     const lane_int out = crossing & leaving;
     lane_int into = crossing & ~leaving & ~medium_set_holds(&in, packed);
+    MediumSet crossed;
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
         const lane_uint member =
             LANES_SELECT(out & is_medium(in.members[i], packed), none, in.members[i]);
         const lane_int here = into & LANE_MASK(member == VXL_NO_MEDIUM);
-        in.members[i] = LANES_SELECT(here, packed, member);
+        crossed.members[i] = LANES_SELECT(here, packed, member);
         into &= ~here;
     }
     *overflowed = into;
-    return in;
+    return crossed;
 }
 
 /// The sets behind a surface of the object of `packed`, in the `crossing` lanes.

@@ -3,15 +3,17 @@
 #ifndef VXL_OFFSET_ORIGIN_H
 #define VXL_OFFSET_ORIGIN_H
 
+#include "lib/lanes/exact_float.h"
 #include "lib/lanes/fixed_point.h"
 #include "shared/instance.h"
 #include "shared/scene.h"
 
 /// The maximum distance, in voxels along a unit vector of metric space, of computed points from the
 /// world's triangles: the points are right within plane_bound along each axis.
-static inline float rounding_of_points(PyramidShape shape) {
+static inline lane_float rounding_of_points(PyramidShape shape) {
     const float4 e = shape.edge;
-    const float uneven = fmax(e.x, fmax(e.y, e.z)) / fmin(e.x, fmin(e.y, e.z));
+    const lane_float uneven =
+        exact_divide((lane_float)fmax(e.x, fmax(e.y, e.z)), (lane_float)fmin(e.x, fmin(e.y, e.z)));
     return 1.7320508f * uneven * shape.plane_bound;
 }
 
@@ -28,8 +30,7 @@ static inline Vector offset_origin(PyramidShape shape, Vector position, Vector n
     lane_float by = (lane_float)0.0f;
     if (moves_off_triangles) {
         const lane_uint primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
-        by = LANES_SELECT(LANE_MASK((primitive >> 30) == 0u), (lane_float)rounding_of_points(shape),
-                          by);
+        by = LANES_SELECT(LANE_MASK((primitive >> 30) == 0u), rounding_of_points(shape), by);
     }
     if (VXL_INSTANCES) {
         const lane_uint instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);

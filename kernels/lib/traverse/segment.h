@@ -16,7 +16,8 @@ typedef struct {
 } Segment;
 
 /// The segment's part inside the world. If there is none, the result ends before it begins.
-static inline Segment part_in_world(PyramidShape shape, Segment s) {
+static inline Segment part_in_world(PyramidShape shape, Segment whole) {
+    Segment s = whole;
     clip_to_world(s.origin, s.direction, shape.size_x, shape.size_y, shape.size_z, &s.t_first,
                   &s.t_last);
     return s;

@@ -12,9 +12,9 @@ namespace voxelume {
 
 /// The first fault in the device's answers, in words for people; empty if all are right.
 ///
-/// Tests arithmetic with floats and long integers, atomic operations, private arrays, and the walks
-/// of sixteen rays through a small world, with the code and the numbers of lanes that images use.
-/// Takes two launches.
+/// Tests arithmetic with floats and long integers, atomic operations, private arrays, long loops,
+/// and the walks of sixteen rays through a small world, with the code and the numbers of lanes that
+/// images use. Takes two launches.
 std::string find_fault(const Device& device);
 
 /// The value of VOXELUME_SELF_TEST.
