@@ -127,7 +127,8 @@ static inline lane_int look_from_medium(PyramidShape shape, const MediumScatteri
         density += scattered;
     const lane_float share = exact_divide(scattered, LANES_SELECT(wanted, density, one));
     for (int c = 0; c < 3; ++c) r->throughput[c] *= share;
-    set_out_child(r, shape, r->origin, nowhere, select_vector(wanted, s.direction, way));
+    const Vector origin = r->origin;
+    set_out_child(r, shape, origin, nowhere, select_vector(wanted, s.direction, way));
     const lane_int ends = wanted & LANE_MASK(s.number != VXL_EMITTER_IS_SKY);
     const lane_float metres = LANES_SELECT(ends, s.metres, one);
     r->t_end = LANES_SELECT(ends, t_after(metres, r->direction, shape.edge), r->t_end);
@@ -179,7 +180,8 @@ kernel void extend_in_medium(PyramidShape shape, VXL_SCATTERING_PARAMETER PathSa
     const Vector ahead =
         phase_direction(medium.anisotropy, way, path_point(&samples, VXL_DECISION_DIRECTION));
     const Vector nowhere = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
-    set_out_child(&ray, shape, ray.origin, nowhere, ahead);
+    const Vector origin = ray.origin;
+    set_out_child(&ray, shape, origin, nowhere, ahead);
     if (VXL_LOOKS) {
         const Vector direction = unit(scaled(ray.direction, shape.edge));
         ray.emitter = LANES_AS_UINT(phase_density(medium.anisotropy, dot_product(way, direction)));

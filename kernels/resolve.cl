@@ -112,11 +112,11 @@ static inline Samples earlier_samples(const Camera* camera, const Pixels* at, si
     return s;
 }
 
-/// Adds samples to the sums `s`. `samples` is the number per pixel, `first_ray` the ray of the
+/// Adds samples to the sums `before`. `samples` is the number per pixel, `first_ray` the ray of the
 /// first.
 static inline Samples sum_samples(const RayBatch* batch, uint first_ray, uint samples,
-                                  Samples none) {
-    Samples s = none;
+                                  Samples before) {
+    Samples s = before;
     for (uint sample = 0; sample < samples; ++sample) {
         const uint ray = first_ray + sample * 16u;
         if (VXL_SHOWS_COLOR) {

@@ -88,7 +88,8 @@ static inline int sum_from(short start, short factor) {
     return (int)(short)(four.x + four.y + four.z + four.w) * factor;
 }
 
-/// Rounds of a generator (Marsaglia 2003). Mesa's llvmpipe stops loops after 65,535.
+/// Rounds of a generator (Marsaglia 2003). Mesa's llvmpipe stops loops after 65,535,
+/// of which each may be several of these.
 static inline uint shift_often(uint number, int rounds) {
     for (int k = 0; k < rounds; ++k) {
         number ^= number << 13;
@@ -112,7 +113,7 @@ kernel void answer_numbers(global const uint* restrict questions, global uint* r
     answers[QUESTION(VXL_KNOWN_LEADING_ZEROS)] = clz((uint)i >> (j & 31));
     answers[QUESTION(VXL_KNOWN_PRIVATE_ARRAY)] = sum_of_squares((uint)i);
     answers[QUESTION(VXL_KNOWN_VECTOR)] = (uint)sum_from((short)(i & 15), (short)j);
-    answers[QUESTION(VXL_KNOWN_LONG_LOOP)] = shift_often((uint)j, 70000 + (i & 63));
+    answers[QUESTION(VXL_KNOWN_LONG_LOOP)] = shift_often((uint)j, 140000 + (i & 63));
     global uint* atomics = answers + VXL_KNOWN_ATOMICS * VXL_KNOWN_COLUMNS;
     atomic_inc(&atomics[0]);
     atomic_add(&atomics[1], (uint)j);

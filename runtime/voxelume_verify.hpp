@@ -74,9 +74,9 @@ std::vector<KernelName> kernel_names();
 /// The number of launches of each kernel since the device was opened.
 std::map<std::string, uint64_t> launches_of(const Device& device);
 
-/// Repeats the self-test of an open device: arithmetic and walks whose answers are known. Returns
-/// the first fault as a sentence for people, or an empty string if all answers are right. Throws
-/// Error as devices do.
+/// Repeats the self-test of an open device: arithmetic, long loops and walks whose answers are
+/// known. Returns the first fault as a sentence for people, or an empty string if all answers are
+/// right. Throws Error as devices do.
 std::string fault_of_known_bits(const Device& device);
 
 /// A scene whose truth is known.

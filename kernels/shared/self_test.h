@@ -41,7 +41,7 @@
 #define VXL_KNOWN_PRIVATE_ARRAY 21   // the sum of squares of how often each digit is in i, base 4
 #define VXL_KNOWN_VECTOR 22          // the sum of k = 0 .. 15 with k >= (i & 15), times (short)j
 #define VXL_KNOWN_ATOMICS 23  // over all columns: count, sum of j, bits 1 << (i & 31), minimum of i
-#define VXL_KNOWN_LONG_LOOP 24  // j after 70000 + (i & 63) rounds of Marsaglia's xorshift
+#define VXL_KNOWN_LONG_LOOP 24  // j after 140000 + (i & 63) rounds of Marsaglia's xorshift
 #define VXL_KNOWN_ANSWERS 25
 
 // The number of voxels along each side of the rays' world, and its fixed point.

@@ -31,7 +31,7 @@ inline void write_bytes(const std::filesystem::path& file, std::span<const uint8
     static std::map<std::filesystem::path, int> open_files;
     const auto [known, is_new] = open_files.try_emplace(file);
     int& descriptor = known->second;
-    if (is_new) descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (is_new) descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     if (pwrite(descriptor, bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()) ||
         ftruncate(descriptor, off_t(bytes.size())) != 0)
         std::abort();

@@ -158,7 +158,7 @@ class WireReceiver {
     }
 
     static constexpr uint64_t kMaxEntries = 1 << 20, kMaxText = 1 << 30;
-    static constexpr size_t kBlock = 1 << 16;  ///< larger memory would be mapped anew each time
+    static constexpr size_t kBlock = 1 << 16;  ///< larger memory may be mapped anew each time
     HelperProcess& helper_;
     std::unique_ptr<char[]> block_;
     size_t filled_ = 0;  ///< bytes of the block

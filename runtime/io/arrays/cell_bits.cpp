@@ -67,8 +67,9 @@ void CellBits::dilate(int reach) {
                     to[word] |= next[size * size_t(from) + word];
         }
     };
-    for_ranges(counts_.z, bits_.size(), widen_layers);
-    for_ranges(counts_.z, bits_.size(), join_layers);
+    const uint64_t steps = bits_.size() * uint64_t(2 * reach + 1);
+    for_ranges(counts_.z, steps, widen_layers);
+    for_ranges(counts_.z, steps, join_layers);
 }
 
 }  // namespace voxelume

@@ -172,7 +172,7 @@ TEST(CellBits, SixteenOfARowBeginAnywhere) {
 
 TEST(CellBits, CellsSpreadAlongEachAxis) {
     std::mt19937 random(4);
-    for (const glm::ivec3& counts : {glm::ivec3(130, 7, 5), {64, 9, 3}, {3, 1, 12}}) {
+    for (const glm::ivec3& counts : {glm::ivec3(130, 7, 5), {64, 9, 3}, {3, 1, 12}, {40, 30, 40}}) {
         CellBits bits(counts);
         std::vector<glm::ivec3> set;
         for (int i = 0; i < 6; ++i) {
