@@ -118,9 +118,12 @@ void add_import_options(CLI::App& app, ImportChoices& choices) {
                    "R,G,B")
         ->type_name("COLOR");
     app.add_flag_function(
-        "--ground,!--no-ground", [&choices](int64_t given) { choices.ground = given > 0; },
-        "of a model file: whether it stands on a ground; it does by default unless a .vox has "
-        "none, or a glTF file has lights");
+           "--ground,!--no-ground", [&choices](int64_t given) { choices.ground = given > 0; },
+           "of a model file: whether it stands on a ground; it does by default unless a .vox has "
+           "none, or a glTF file has lights")
+        ->check([](const std::string& value) {  // CLI11 fails without a sentence
+            return std::string(value == "true" || value == "false" ? "" : "it takes no value");
+        });
     app.add_flag("--transparent", choices.transparent,
                  "show nothing where no object is: .png files are transparent there, and a model "
                  "file has no ground by default");

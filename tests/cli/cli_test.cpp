@@ -73,6 +73,14 @@ TEST_F(CliTest, UsageErrorsExitWithTwo) {
     EXPECT_THAT(run("info --jsn a").err, HasSubstr("did you mean \"--json\"?"));
 }
 
+TEST_F(CliTest, AFlagWithAValueIsAUsageError) {
+    for (const char* flag : {"--ground=x", "--no-ground=5", "--ground --ground=1e30"}) {
+        const ProgramResult result = run(std::string("render scene.json -o a.exr ") + flag);
+        EXPECT_EQ(result.exit_code, 2) << flag;
+        EXPECT_THAT(result.err, HasSubstr("--ground: it takes no value")) << flag;
+    }
+}
+
 TEST_F(CliTest, AFullStdoutIsAnOutputError) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     const std::string line = "'" VXL_BINARY "' help >/dev/full 2>/dev/null";
