@@ -88,8 +88,8 @@ static inline int sum_from(short start, short factor) {
     return (int)(short)(four.x + four.y + four.z + four.w) * factor;
 }
 
-/// Rounds of a generator (Marsaglia 2003). Mesa's llvmpipe stops loops after 65,535 rounds, into
-/// each of which a compiler may put two of these.
+/// Rounds of a generator (Marsaglia 2003). Mesa's llvmpipe ends all loops of a kernel after 65,535
+/// rounds together, into each of which a compiler may put two of these.
 static inline uint shift_often(uint number, int rounds) {
     for (int k = 0; k < rounds; ++k) {
         number ^= number << 13;

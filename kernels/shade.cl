@@ -50,9 +50,7 @@ typedef struct {
 
 /// Turns a gradient in the voxels of the hits into a unit normal in metric space.
 static inline Vector normal_of(const WorldView* world, const ShadedHit* h, Vector gradient) {
-    const Vector of_world =
-        VXL_INSTANCES ? world_gradient(&h->ray, gradient, h->of_instance) : gradient;
-    return unit(scaled(of_world, world->shape.inverse_edge));
+    return unit(metric_gradient(world, h, gradient));
 }
 
 /// Sets the points of cubes, exactly on the crossed face, and that face's normals, towards the ray.

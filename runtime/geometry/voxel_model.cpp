@@ -34,13 +34,11 @@ namespace {
 Buffer<uint32_t> widened(const Device& device, const VoxelModel& model) {
     Buffer<uint32_t> colors(device, "model colors", model.color_codes.size());
     colors.write_in_place([&](std::span<uint32_t> words) {
-        for_ranges(int(model.coordinates.size()), model.color_codes.size(),
-                   [&](int first, int end) {
-                       const size_t from = size_t(first) * kVoxelsPerBrick,
-                                    to = size_t(end) * kVoxelsPerBrick;
-                       for (size_t i = from; i < to; ++i)
-                           words[i] = model.palette[model.color_codes[i]];
-                   });
+        const auto bricks = int(model.coordinates.size());
+        for_ranges(bricks, words.size(), [&](int first, int end) {
+            const size_t from = size_t(first) * kVoxelsPerBrick, to = size_t(end) * kVoxelsPerBrick;
+            for (size_t i = from; i < to; ++i) words[i] = model.palette[model.color_codes[i]];
+        });
     });
     return colors;
 }

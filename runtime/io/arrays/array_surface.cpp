@@ -209,8 +209,9 @@ class ArraySurface {
     }
 
     void fill() {
-        reserve_in_huge_pages(model_.distance, model_.coordinates.size() * kVoxelsPerBrick);
-        model_.distance.resize(model_.coordinates.size() * kVoxelsPerBrick);
+        const size_t bricks = model_.coordinates.size(), nodes = bricks * kVoxelsPerBrick;
+        reserve_in_huge_pages(model_.distance, nodes);
+        model_.distance.resize(nodes);
         const ArrayUnits units(values_, steepest_, array_.type);
         const std::vector<CellRun> runs = runs_of(axis_indices_[0].brick);
         for_layer_ranges(array_, 1, [&](int first, int end) {
@@ -223,10 +224,9 @@ class ArraySurface {
                                      slabs.first(), units);
                 });
         });
-        for_ranges(int(model_.coordinates.size()), model_.coordinates.size() * kVoxelsPerBrick,
-                   [&](int first, int end) {
-                       for (int slot = first; slot < end; ++slot) fill_pad(size_t(slot));
-                   });
+        for_ranges(int(bricks), nodes, [&](int first, int end) {
+            for (int slot = first; slot < end; ++slot) fill_pad(size_t(slot));
+        });
     }
 
     /// Fills the nodes of a run. Far from the surface they store only their side, however flat the
