@@ -110,7 +110,7 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
         high = glm::max(high, glm::dvec3(cell));
     }
     const glm::dvec3 size = high - low + 1.0 + 2.0 * kModelMargin;
-    check_voxel_span(size, file);
+    check_listed_span(size, file);
     if (std::max(-std::min({low.x, low.y, low.z}), std::max({high.x, high.y, high.z})) >
         kFarthestCell)
         file.refuse("its voxels lie farther from its origin than can be counted");

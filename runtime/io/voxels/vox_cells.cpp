@@ -86,7 +86,7 @@ CellBox box_of(const VoxStanding& standing) {
 
 VoxCells::VoxCells(const CellBox& box, const InputFile& file) : file_(file) {
     const glm::dvec3 size = glm::dvec3(box.high - box.low) + 2.0 * kModelMargin;
-    check_voxel_span(size, file);
+    check_listed_span(size, file);
     frame_.size = glm::ivec3(size);
     first_ = box.low - kModelMargin;
     frame_.origin = glm::dvec3(first_);
@@ -103,7 +103,7 @@ void VoxCells::add_box(const CellBox& box) {
                     numbers_[size_t(x) + size_t(bricks.x) * size_t(y + bricks.y * z)];
                 if (number == kNoBrick) number = count_++;
             }
-    check_stored_bricks(count_, file_);
+    check_listed_bricks(count_, file_);
 }
 
 void VoxCells::allocate() {

@@ -11,6 +11,7 @@
 #include <random>
 #include <thread>
 
+#include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/vdb/vdb_density.hpp"
 #include "runtime/io/vdb/vdb_model.hpp"
@@ -124,6 +125,22 @@ TEST_F(VdbReaderTest, AModelHasTheVoxelsOfOneThatIsReadHere) {
             const glm::ivec3 cell(i % 40 - 20, i / 40 % 40 - 25, i / 1600 + 180);
             ASSERT_EQ(isolated.value_at(cell), here.value_at(cell)) << i;
         }
+    }
+}
+
+TEST_F(VdbReaderTest, TwoVoxelsFarApartDontTakeAnIndexOfGigabytes) {
+    openvdb::initialize();
+    for (const int place : {4000, 8000}) {
+        const auto fog = openvdb::FloatGrid::create(0.0f);
+        fog->setName("density");
+        fog->tree().setValue(Coord(0, 0, 0), 1.0f);
+        fog->tree().setValue(Coord(place, place, place), 1.0f);
+        openvdb::io::File(path().string()).write({fog});
+        const auto read = [&] { return read_voxel_model(path(), Surface::cubes); };
+        if (place == 4000)
+            EXPECT_EQ(read().voxels(), 2u);
+        else
+            EXPECT_THAT(error_of(read).what(), HasSubstr("bricks of 16 are possible in a file of"));
     }
 }
 
