@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/files/input_file.hpp"
+#include "runtime/base/ranges.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
@@ -35,14 +38,15 @@ void number_bricks(const std::vector<glm::ivec3>& cells, const glm::ivec3& first
     model.slots.assign(bricks_of(model.frame), kBrickOutside);
     const glm::ivec3 bricks = model.frame.bricks();
     for (size_t i = 0; i < cells.size(); ++i) {
-        if (is_kept(i)) model.slots[brick_of(cells[i] - first, bricks)] = 0;
-    }
-    for (size_t brick = 0; brick < model.slots.size(); ++brick) {
-        if (model.slots[brick] != 0) continue;
-        model.slots[brick] = uint32_t(model.coordinates.size());
-        model.coordinates.push_back(uint32_t(brick));
+        if (!is_kept(i)) continue;
+        const size_t brick = brick_of(cells[i] - first, bricks);
+        if (std::exchange(model.slots[brick], 0) == kBrickOutside)
+            model.coordinates.push_back(uint32_t(brick));
     }
     check_stored_bricks(model.coordinates.size(), file);
+    std::ranges::sort(model.coordinates);
+    for (size_t slot = 0; slot < model.coordinates.size(); ++slot)
+        model.slots[model.coordinates[slot]] = uint32_t(slot);
 }
 
 /// The index of cell `v` of the model among the voxels of its stored bricks.
@@ -79,27 +83,62 @@ void fill_cubes(const VdbVoxels& voxels, const glm::ivec3& first, const InputFil
     }
 }
 
+/// Calls `use` with each run of cells at the places first, first + stride, ... of `count` along x:
+/// the number of the run's first place, how many it has, and their value.
+template <class Use>
+void for_runs(const VdbVoxels::Runs& run_at, const glm::ivec3& first, int count, int stride,
+              const Use& use) {
+    for (int i = 0; i < count;) {
+        const ValueRun run = run_at(first + glm::ivec3(i * stride, 0, 0));
+        const int places = std::min(count - i, (run.cells + stride - 1) / stride);
+        use(i, places, run.value);
+        i += places;
+    }
+}
+
+/// Marks the bricks that aren't stored and lie inside the surface.
+void mark_inside(const VdbVoxels& voxels, const glm::ivec3& first, VoxelModel& model) {
+    const glm::ivec3 bricks = model.frame.bricks();
+    for (int row = 0; row < bricks.y * bricks.z; ++row) {
+        const std::span slots(model.slots.data() + size_t(row) * size_t(bricks.x),
+                              size_t(bricks.x));
+        const glm::ivec3 brick(0, row % bricks.y, row / bricks.y);
+        for_runs(voxels.run_at, first + kBrickSize * brick, bricks.x, kBrickSize,
+                 [&](int x, int count, float value) {
+                     if (value < 0)
+                         std::ranges::replace(slots.subspan(size_t(x), size_t(count)),
+                                              kBrickOutside, kBrickInside);
+                 });
+    }
+}
+
 void fill_distances(const VdbVoxels& voxels, const glm::ivec3& first, const InputFile& file,
                     VoxelModel& model) {
     number_bricks(
         voxels.cells, first, [](size_t) { return true; }, file, model);
-    for (size_t brick = 0; brick < model.slots.size(); ++brick) {
-        if (model.slots[brick] != kBrickOutside) continue;
-        if (voxels.value_at(first + brick_corner(model.frame, brick)) < 0)
-            model.slots[brick] = kBrickInside;
-    }
+    mark_inside(voxels, first, model);
     model.distance.resize(model.coordinates.size() * kVoxelsPerBrick);
-    for (size_t slot = 0; slot < model.coordinates.size(); ++slot) {
-        const glm::ivec3 corner = first + brick_corner(model.frame, model.coordinates[slot]);
-        for (size_t i = 0; i < kVoxelsPerBrick; ++i)
-            model.distance[slot * kVoxelsPerBrick + i] =
-                voxels.value_at(corner + cell_in_brick(i)) < 0 ? -32767 : 32767;
-    }
+    const auto sign_bricks = [&](int begin, int end) {
+        const VdbVoxels::Runs run_at = voxels.run_at;  // of this thread
+        for (auto slot = size_t(begin); slot < size_t(end); ++slot) {
+            const glm::ivec3 corner = first + brick_corner(model.frame, model.coordinates[slot]);
+            for (size_t i = 0; i < kVoxelsPerBrick; i += kBrickSize)
+                for_runs(run_at, corner + cell_in_brick(i), kBrickSize, 1,
+                         [&](int x, int count, float value) {
+                             std::fill_n(&model.distance[slot * kVoxelsPerBrick + i + size_t(x)],
+                                         count, int16_t(value < 0 ? -32767 : 32767));
+                         });
+        }
+    };
+    for_ranges(int(model.coordinates.size()), model.distance.size(), sign_bricks);
     const glm::dvec3& e = model.frame.voxel_edge;
     const double units = kDistanceUnitsPerVoxel / std::min({e.x, e.y, e.z});
-    for (size_t i = 0; i < voxels.cells.size(); ++i)
-        model.distance[index_of(model, voxels.cells[i] - first)] =
-            int16_t(std::lround(std::clamp(voxels.values[i] * units, -32767.0, 32767.0)));
+    const auto set_distances = [&](int begin, int end) {
+        for (auto i = size_t(begin); i < size_t(end); ++i)
+            model.distance[index_of(model, voxels.cells[i] - first)] =
+                int16_t(std::lround(std::clamp(voxels.values[i] * units, -32767.0, 32767.0)));
+    };
+    for_ranges(int(voxels.cells.size()), voxels.cells.size(), set_distances);
 }
 
 VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& file) {

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "runtime/base/helper/helper_wire.hpp"
@@ -109,10 +110,17 @@ Volume receive_volume(WireReceiver& receiver, const InputFile& file) {
     return volume;
 }
 
+/// Cells along each axis for which a grid has one value, by the depth at which it has it; the
+/// background, of depth -1, fills nodes as large as those of depth 0.
+constexpr std::array<int, 4> kCellsOfTile{4096, 128, 8, 1};
+
 VdbVoxels with_values(VdbModel model) {
     if (model.grid)
-        model.voxels.value_at = [grid = model.grid](const glm::ivec3& cell) {
-            return grid->tree().getValue(openvdb::Coord(cell.x, cell.y, cell.z));
+        model.voxels.run_at = [grid = model.grid, tree = model.grid->getConstUnsafeAccessor()](
+                                  const glm::ivec3& cell) {
+            const openvdb::Coord place(cell.x, cell.y, cell.z);
+            const int size = kCellsOfTile[size_t(std::max(tree.getValueDepth(place), 0))];
+            return ValueRun{tree.getValue(place), size - (cell.x & (size - 1))};
         };
     return std::move(model.voxels);
 }

@@ -12,15 +12,24 @@
 
 namespace voxelume {
 
+/// A value that cells along x have.
+struct ValueRun {
+    float value;
+    int cells;  ///< at least 1: the first has the value, and so have those after it
+};
+
 /// The active voxels of one grid.
 struct VdbVoxels {
+    using Runs = std::function<ValueRun(const glm::ivec3&)>;
+
     std::vector<glm::ivec3> cells;
     std::vector<float> values;
     std::vector<glm::vec3> colors;  ///< linear colours of grid `Cd`; empty without it
     glm::dvec3 voxel_edges{1.0};    ///< metres
     glm::dvec3 origin{0.0};         ///< position of the value of cell (0, 0, 0), metres
-    /// The value of any cell, active or not; for level sets alone.
-    std::function<float(const glm::ivec3&)> value_at;
+    /// The value of any cell, active or not, and of those behind it; for level sets alone. A copy
+    /// remembers where it was asked, so each thread needs its own.
+    Runs run_at;
 };
 
 /// The maximum number of active voxels of a model.

@@ -123,7 +123,12 @@ TEST_F(VdbReaderTest, AModelHasTheVoxelsOfOneThatIsReadHere) {
         if (surface == Surface::cubes) continue;
         for (int i = 0; i < 64000; ++i) {
             const glm::ivec3 cell(i % 40 - 20, i / 40 % 40 - 25, i / 1600 + 180);
-            ASSERT_EQ(isolated.value_at(cell), here.value_at(cell)) << i;
+            const ValueRun run = isolated.run_at(cell);
+            ASSERT_EQ(run.value, here.run_at(cell).value) << i;
+            ASSERT_GE(run.cells, 1) << i;
+            for (const int x : {1, run.cells / 2, run.cells - 1})
+                ASSERT_EQ(isolated.run_at(cell + glm::ivec3(x % run.cells, 0, 0)).value, run.value)
+                    << i;
         }
     }
 }
