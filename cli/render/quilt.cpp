@@ -46,12 +46,10 @@ Quilt quilt_of(const QuiltChoices& choices) {
 }
 
 void refuse_others(const RenderCommand& command) {
-    const std::array<std::pair<const char*, bool>, 9> others = {
+    const std::array<std::pair<const char*, bool>, 7> others = {
         {{"--volume", !command.volumes.empty()},
          {"--crop", !command.crop.empty()},
          {"--shard", !command.shard.empty()},
-         {"--noise", command.scene.noise > 0},
-         {"--time", command.scene.time > 0},
          {"--stats-json", !command.stats.empty()},
          {"--overwrite", !command.overwrite.empty() && command.overwrite != "always"},
          {"--resume", command.resume},

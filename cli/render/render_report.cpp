@@ -76,8 +76,9 @@ void print_summary(const Statistics& statistics) {
             : "";
     std::string quality;
     if (rays.noise) quality = fmt::format(", noise {:.3f}", *rays.noise);
+    if (rays.volume_noise) quality += fmt::format(", volume noise {:.3f}", *rays.volume_noise);
     if (rays.contrasting_pixels > 0)
-        quality = fmt::format(", {} contrasting pixels", count_text(rays.contrasting_pixels));
+        quality += fmt::format(", {} contrasting pixels", count_text(rays.contrasting_pixels));
     tell(
         "{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}{}; "
         "open {:.0f} ms, load {:.0f}, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}, "

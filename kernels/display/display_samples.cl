@@ -160,32 +160,36 @@ static inline lane_float voxel_shift(global const ulong* restrict indices, uint 
     return sum - floor(sum);
 }
 
-/// Aims rays at a sample of voxels first_voxel .. first_voxel+count-1, and writes the rays'
-/// weights. Where there is nothing to aim at, rays are idle.
+/// Aims rays at samples of voxels first_voxel .. first_voxel+count-1, and writes the rays' weights.
+/// Where there is nothing to aim at, rays are idle. `turns` holds for each sample what is added to
+/// the voxels' shifts.
 kernel void aim_samples(VXL_VIEW_PARAMETERS, VXL_POINTS_PARAMETERS,
                         global const ulong* restrict indices,
-                        global const float* restrict voxel_normals, SampleAim aim, uint first_voxel,
-                        uint count, uint stride, global float* restrict weights,
-                        global float* restrict rays) {
-    const uint first = work_item() * VXL_LANES;
-    if (first >= count) return;
+                        global const float* restrict voxel_normals, SampleAim aim,
+                        global const float* restrict turns, uint first_voxel, uint count,
+                        uint stride, global float* restrict weights, global float* restrict rays) {
+    const uint first = work_item() * VXL_LANES, group = first / 16u;
+    if (first >= (count + 15u) / 16u * 16u * aim.count) return;
+    const uint at = group / aim.count * 16u + first % 16u, sample = group % aim.count;
     const ProbePoints all = VXL_POINTS;
-    const uint voxel = first_voxel + first;
-    Vector point = load_vector(all.points + first_voxel, all.total, first);
+    const uint voxel = first_voxel + at;
+    Vector point = load_vector(all.points + first_voxel, all.total, at);
     const lane_uint known = LANES_LOAD(all.views, voxel);
     lane_int aimed =
-        LANE_MASK(LANES_NUMBERS + (int)first < (int)count) & LANE_MASK(known != 0xFFFFFFFFu);
+        LANE_MASK(LANES_NUMBERS + (int)at < (int)count) & LANE_MASK(known != 0xFFFFFFFFu);
     if (aim.samples > 0u) {
         const Vector corner = voxel_corners(&lattice, indices, voxel, first_voxel + count);
         const Vector in_voxel = {point.x - corner.x, point.y - corner.y, point.z - corner.z};
         const Vector normal = kept_normals(voxel_normals, voxel, first_voxel + count);
         const SamplePlane plane = sample_plane(&lattice, shape.edge, in_voxel, normal);
         aimed &= LANE_MASK(normal.y >= -VXL_LOOKS_DOWN);
-        const lane_float shift = voxel_shift(indices, voxel, first_voxel + count, aim.turn);
+        const lane_float shift =
+            voxel_shift(indices, voxel, first_voxel + count, turns[aim.number + sample]);
         Vector p;
         lane_float area;
         aimed &= aim.axis == 0 ? plane.by_x : aim.axis == 1 ? plane.by_y : plane.by_z;
-        aimed &= sample_on_plane(&plane, aim.sample, aim.samples, shift, aim.log2, &p, &area);
+        aimed &=
+            sample_on_plane(&plane, aim.sample + sample, aim.samples, shift, aim.log2, &p, &area);
         point.x = corner.x + p.x, point.y = corner.y + p.y, point.z = corner.z + p.z;
         LANES_STORE(LANES_SELECT(aimed, area, (lane_float)0.0f), weights, first);
     }
@@ -205,38 +209,42 @@ static inline lane_int is_within(lane_float coordinate, lane_float corner) {
            LANE_MASK(coordinate <= corner + (1.0f + VXL_SAMPLE_SLACK));
 }
 
-/// Adds the light of rays that aim_samples aimed to their voxels' sums: of colours times weights,
-/// and of weights, which are areas times opacities.
+/// Adds the light of the rays of `samples` samples, which aim_samples aimed, to their voxels' sums:
+/// of colours times weights, and of weights, which are areas times opacities. The sums of the first
+/// voxel are number `first_sum`.
 kernel void add_samples(PyramidShape shape, DisplayLattice lattice, VXL_SPACE_MEDIUM_PARAMETERS,
                         VXL_BATCH_PARAMETERS, VXL_NODE_PARAMETERS,
                         global const ulong* restrict indices, global const float* restrict weights,
-                        uint first_voxel, uint count, global float* restrict sums) {
-    const uint first = work_item() * VXL_LANES;
-    if (first >= count) return;
+                        uint first_voxel, uint count, uint samples, uint first_sum,
+                        global float* restrict sums) {
+    const uint at = work_item() * VXL_LANES;
+    if (at >= count) return;
     const RayBatch batch = VXL_BATCH;
     const NodeLight nodes = VXL_NODES;
     const SpaceMedium medium = VXL_SPACE_MEDIUM;
-    const SeenLight seen = seen_light(shape, &medium, &batch, &nodes, first);
-    const Vector corner =
-        voxel_corners(&lattice, indices, first_voxel + first, first_voxel + count);
-    const lane_int aimed = LANE_MASK(LANES_LOAD(rays, VXL_RAY_END * stride + first) >= 0.0f);
-    const lane_int counts = seen.hit & aimed &
-                            is_within(lattice_coordinate(lattice.row_x, seen.point), corner.x) &
-                            is_within(lattice_coordinate(lattice.row_y, seen.point), corner.y) &
-                            is_within(lattice_coordinate(lattice.row_z, seen.point), corner.z);
-    float color[3 * VXL_LANES], opacity[VXL_LANES];
-    int added[VXL_LANES];
-    for (uint channel = 0; channel < 3; ++channel)
-        LANES_STORE(seen.color[channel], color, channel * VXL_LANES);
-    LANES_STORE(seen.opacity, opacity, 0);
-    LANES_STORE(counts, added, 0);
-    for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
-        if (!added[i]) continue;
-        global float* sum = sums + 4 * (size_t)(first_voxel + first + i);
-        const float weight = opacity[i] * weights[first + i];
+    const Vector corner = voxel_corners(&lattice, indices, first_voxel + at, first_voxel + count);
+    for (uint sample = 0; sample < samples; ++sample) {
+        const uint first = (at / 16u * samples + sample) * 16u + at % 16u;
+        const SeenLight seen = seen_light(shape, &medium, &batch, &nodes, first);
+        const lane_int aimed = LANE_MASK(LANES_LOAD(rays, VXL_RAY_END * stride + first) >= 0.0f);
+        const lane_int counts = seen.hit & aimed &
+                                is_within(lattice_coordinate(lattice.row_x, seen.point), corner.x) &
+                                is_within(lattice_coordinate(lattice.row_y, seen.point), corner.y) &
+                                is_within(lattice_coordinate(lattice.row_z, seen.point), corner.z);
+        float color[3 * VXL_LANES], opacity[VXL_LANES];
+        int added[VXL_LANES];
         for (uint channel = 0; channel < 3; ++channel)
-            sum[channel] += weight * color[channel * VXL_LANES + i];
-        sum[3] += weight;
+            LANES_STORE(seen.color[channel], color, channel * VXL_LANES);
+        LANES_STORE(seen.opacity, opacity, 0);
+        LANES_STORE(counts, added, 0);
+        for (uint i = 0; i < VXL_LANES && at + i < count; ++i) {
+            if (!added[i]) continue;
+            global float* sum = sums + 4 * (size_t)(first_sum + at + i);
+            const float weight = opacity[i] * weights[first + i];
+            for (uint channel = 0; channel < 3; ++channel)
+                sum[channel] += weight * color[channel * VXL_LANES + i];
+            sum[3] += weight;
+        }
     }
 }
 

@@ -59,15 +59,17 @@ typedef struct LineGrid {
 } LineGrid;
 VXL_SIZE_IS(LineGrid, 32);
 
-// The sample of display voxels that rays are aimed at: number `sample` of `samples` on planes of
-// 4^log2 places that face `axis` most. Without `samples` rays are aimed at the probe points.
+// The samples of display voxels that rays are aimed at: `count` from number `sample` on, of
+// `samples` on planes of 4^log2 places that face `axis` most. Without `samples` rays are aimed at
+// the probe points. The rays of sixteen voxels come sample by sample.
 typedef struct SampleAim {
     int axis;
     uint sample, samples;
-    float turn;  // is added to each voxel's shift of its samples
+    uint count;
+    uint number;  // of the first sample among all samples of the voxels
     int log2;
 } SampleAim;
-VXL_SIZE_IS(SampleAim, 20);
+VXL_SIZE_IS(SampleAim, 24);
 
 // A display of layout `lattice`. A coordinate (x,y,z) in lattice voxels is origin + x axis_x + y
 // axis_y + z axis_z in voxels of the world.

@@ -9,10 +9,6 @@
 namespace voxelume {
 namespace {
 
-/// The maximum number of samples per voxel for scenes whose images sample until a target of noise
-/// is met.
-constexpr int kSamplesWithNoise = 64;
-
 bool asks_for_light_of_layers(const Scene& scene) {
     return scene.render.light == LightMode::global &&
            scene.observer.display.layout == VolumeLayout::rays;
@@ -25,7 +21,6 @@ Scene volume_scene(Scene scene) {
     scene.observer.aperture = 0;
     render.filter = {};
     render.channels = {};
-    if (render.noise.is_given()) render.samples = std::min(render.samples, kSamplesWithNoise);
     if (render.light == LightMode::global) scene.world.medium.scattering = glm::vec3(0);
     return scene;
 }
@@ -36,6 +31,10 @@ Scene volume_scene(const Scene& scene, const Pyramid& world) {
         (drops_global_light(shown) || features_of(shown, world).transmission))
         shown.render.light = LightMode::local;
     return shown;
+}
+
+bool is_sampled_by_noise(const RenderSettings& render) {
+    return render.noise.is_given() && render.samples >= 2 * kFirstSamples;
 }
 
 bool drops_global_light(const Scene& scene) {

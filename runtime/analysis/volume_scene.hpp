@@ -11,13 +11,15 @@ namespace voxelume {
 
 /// The scene with the default channels, since the channels that it asks for belong to the flat
 /// image. In global light no medium scatters, because voxels of a medium hold only the medium's own
-/// light. With a target of noise each voxel takes a limited number of samples, because its noise
-/// isn't measured.
+/// light.
 Scene volume_scene(Scene scene);
 
 /// The scene, in local light where its display can't show global light: in the layout `rays`, each
 /// layer of objects that let light through would need light of its own.
 Scene volume_scene(const Scene& scene, const Pyramid& world);
+
+/// True if volumetric images of the scene take samples until their noise is low enough.
+bool is_sampled_by_noise(const RenderSettings& render);
 
 /// True if the scene's objects rule out global light, wherever they are in a frame. In a world,
 /// textures and voxels that are seen through may rule it out, too.

@@ -80,8 +80,9 @@ std::vector<Image> render_views(const Scene& scene, const std::vector<Device>& d
                                 const Quilt& quilt, int frame, const RenderOptions& options) {
     return api::guarded([&] {
         check_quilt(quilt);
-        const voxelume::Scene now = scene_at(api::inside(scene), frame);
+        voxelume::Scene now = scene_at(api::inside(scene), frame);
         const int views = quilt.columns * quilt.rows;
+        now.render.noise.seconds /= views;
         const ViewRow row{views, quilt.cone, quilt.focus, quilt.separation};
         std::vector<Image> images;
         for (int number = 0; number < views; ++number) {
@@ -116,6 +117,7 @@ Image join_views(const std::vector<Image>& views, const Quilt& quilt) {
         key.add(quilt.columns);
         api::Attributes attributes = views.front().implementation().attributes;
         attributes[api::kFrameHash] = hash_of(key);
+        attributes.erase("noise");  // the noise of the first view alone
         return api::handle_of(
             std::make_shared<const voxelume::Image>(quilt_of(images, quilt.columns)),
             std::move(attributes));

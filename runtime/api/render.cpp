@@ -197,6 +197,8 @@ class Run {
         if (result.volume) {
             api::Attributes all = result.volume->attributes;
             for (const auto& [name, text] : attributes_of(scene_, files.frame)) all[name] = text;
+            const NoiseReached& noise = result.report.report.volume_noise;
+            if (noise.tiles > 0) all["noise"] = api::noise_text(noise);
             all[api::kStamp] = stamp_of(hashes_.of_volume(files.frame));
             rendered.volume = api::handle_of(result.volume, std::move(all));
         }

@@ -23,6 +23,10 @@ void add(const v1::StageSeconds& seconds, v1::StageSeconds& sum) {
     sum.image += seconds.image;
 }
 
+std::optional<double> mean_of(const NoiseReached& noise) {
+    return noise.tiles > 0 ? std::optional(noise.mean()) : std::nullopt;
+}
+
 v1::RayCounts rays_of(const RenderReport& report) {
     return {.sight_rays = report.sight_rays,
             .beams = report.beams,
@@ -36,7 +40,8 @@ v1::RayCounts rays_of(const RenderReport& report) {
             .ended_paths = report.ended_paths,
             .medium_overflows = report.medium_overflows,
             .not_finite = report.not_finite,
-            .noise = report.noise.tiles > 0 ? std::optional(report.noise.mean()) : std::nullopt};
+            .noise = mean_of(report.noise),
+            .volume_noise = mean_of(report.volume_noise)};
 }
 
 v1::WorldReuse reuse_of(WorldChange change) {

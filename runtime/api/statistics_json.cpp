@@ -61,6 +61,7 @@ void add_rays(const RayCounts& rays, Json& json) {
     json["medium_overflows"] = rays.medium_overflows;
     json["not_finite"] = rays.not_finite;
     if (rays.noise) json["noise"] = *rays.noise;
+    if (rays.volume_noise) json["volume_noise"] = *rays.volume_noise;
 }
 
 Json json_of(const std::vector<Warning>& warnings) {

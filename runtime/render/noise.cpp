@@ -11,10 +11,11 @@ namespace {
 
 struct Channel {
     const char* name;
-    double luminance;
+    double share;  ///< of the luminance
 };
 
-constexpr std::array<Channel, 4> kLight = {{{"R", 0.2126}, {"G", 0.7152}, {"B", 0.0722}, {"A", 0}}};
+constexpr std::array<Channel, 4> kLight = {
+    {{"R", luminance(1, 0, 0)}, {"G", luminance(0, 1, 0)}, {"B", luminance(0, 0, 1)}, {"A", 0}}};
 
 /// Calls `see` with the index of each of a tile's pixels.
 template <class See>
@@ -31,8 +32,7 @@ void for_each_pixel(uint32_t tile, const Image& image, See&& see) {
 bool is_dark_tile(uint32_t tile, const Image& image) {
     double sum = 0, covered = 0;
     for_each_pixel(tile, image, [&](size_t at) {
-        for (const auto& [name, luminance] : kLight)
-            sum += luminance * double(image.planes.at(name)[at]);
+        for (const auto& [name, share] : kLight) sum += share * double(image.planes.at(name)[at]);
         covered += double(image.planes.at("A")[at]);
     });
     return sum == 0 && covered > 0;
@@ -54,25 +54,23 @@ float joined_variance(const std::string& color, const SampledPixel& a, const Sam
 }
 
 double average_tile(uint32_t tile, int samples, const Image& other, Image& image) {
-    std::array<double, 16> half{};
-    double sum = 0, squares = 0;
-    int pixels = 0;
+    ErrorOfHalves error;
     const bool has_variance = image.planes.contains("variance.R");
     for_each_pixel(tile, image, [&](size_t at) {
-        double& difference = half[size_t(pixels++)];
-        for (const auto& [name, luminance] : kLight) {
+        double difference = 0, light = 0;
+        for (const auto& [name, share] : kLight) {
             float& value = image.planes.at(name)[at];
             const float more = other.planes.at(name)[at];
-            if (has_variance && luminance > 0)
+            if (has_variance && share > 0)
                 image.planes.at(std::string("variance.") + name)[at] =
                     joined_variance(name, {image, at, samples}, {other, at, samples});
-            difference += 0.5 * luminance * (double(value) - double(more));
+            difference += 0.5 * share * (double(value) - double(more));
             value = 0.5f * (value + more);
-            sum += luminance * double(value);
+            light += share * double(value);
         }
+        error.add(difference, light);
     });
-    for (const double difference : half) squares += difference * difference;
-    return sum > 0 ? std::sqrt(squares * pixels) / sum : 0;
+    return error.relative();
 }
 
 }  // namespace voxelume

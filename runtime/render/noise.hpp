@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -35,6 +36,45 @@ class NoiseReached {
     __extension__ using Wide = unsigned __int128;
     static constexpr double kUnit = 0x1p64, kMaxSquare = 0x1p30;
     Wide squares_ = 0;  ///< in units of 2^-64
+};
+
+/// The number of samples below which surfaces without light get more: few paths may find it.
+inline constexpr int kDarkSamples = 256;
+
+using NoiseClock = std::chrono::steady_clock;
+
+/// True if there is time for as much work as was done since the start.
+inline bool has_time(const NoiseTarget& target, NoiseClock::time_point start) {
+    const std::chrono::duration<double> spent = NoiseClock::now() - start;
+    return target.seconds == 0 || 2 * spent.count() <= target.seconds;
+}
+
+/// The part of a frame's time that each of its images may take.
+inline double time_share(const RenderSettings& render) {
+    return render.shows_image && render.shows_volume ? 0.5 : 1;
+}
+
+/// The luminance of linear Rec. 709 light.
+constexpr double luminance(double red, double green, double blue) {
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+}
+
+/// The standard error of the light of a group of pixels or voxels over its mean, by two halves of
+/// the samples.
+class ErrorOfHalves {
+  public:
+    /// Adds half of the difference of a pixel's two values, and their mean.
+    void add(double half_difference, double mean) {
+        squares_ += half_difference * half_difference;
+        sum_ += mean;
+        ++count_;
+    }
+    /// 0 where there is no light.
+    double relative() const { return sum_ > 0 ? std::sqrt(squares_ * count_) / sum_ : 0; }
+
+  private:
+    double squares_ = 0, sum_ = 0;
+    int count_ = 0;
 };
 
 /// True if the noise of a scene's image is known once the image is rendered.

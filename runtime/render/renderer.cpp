@@ -25,6 +25,7 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.medium_overflows += report.medium_overflows;
     sum.not_finite += report.not_finite;
     sum.noise += report.noise;
+    sum.volume_noise += report.volume_noise;
 }
 
 Renderer::WorldDilation& Renderer::dilated_occupancy_of(const BuiltWorld& world, DilationLevel of) {
@@ -83,7 +84,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         image_settings_ = shown.render;
         const std::vector<LightPass> passes = light_passes(shown);
         leave_mattes_to_passes(shown.render);
-        shown.render.noise.seconds /= double(1 + passes.size());
+        shown.render.noise.seconds *= time_share(scene.render) / double(1 + passes.size());
         Sampled sampled;
         const Tiles weighted{tiles.share, tiles.taken, 1.0 / double(1 + passes.size())};
         tiles.share.set_weight(first_weight(shown, weighted.weight));

@@ -45,6 +45,7 @@ struct RenderReport {
     uint32_t not_finite = 0;        ///< values that became 0; more than 0 is a fault of the program
     uint32_t moments = 0;           ///< number of moments of samples; 0: the frame's alone
     NoiseReached noise;             ///< only for images with a target
+    NoiseReached volume_noise;      ///< only for volumetric images with a target
     bool is_kept = false;           ///< true if the frame shows the image of the frame before
     bool hits_are_kept = false;  ///< true if its sight rays meet what they met in the frame before
 };

@@ -4,27 +4,19 @@
 // The samples of a tile are doubled until the two halves of them agree. A tile's bits depend on no
 // other tile, so neither devices nor threads change them.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "runtime/base/error.hpp"
 #include "runtime/image/cryptomatte.hpp"
 #include "runtime/render/light_passes.hpp"
+#include "runtime/render/noise.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/rendered_channels.hpp"
 
 namespace voxelume {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// The number of samples at which two halves are compared first.
-constexpr int kFirstSamples = 16;
-
-/// The number of samples at which a tile of surfaces counts as dark: few paths may find its light.
-constexpr int kDarkSamples = 256;
 
 /// The channels of an image that are averaged.
 ImageChannels averaged(const ImageChannels& asked) {
@@ -42,12 +34,6 @@ void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
         ++ranges.back().count;
     else
         ranges.push_back({tile, 1});
-}
-
-/// True if there is time for as much work as was done since the start.
-bool has_time(const NoiseTarget& target, Clock::time_point start) {
-    const std::chrono::duration<double> spent = Clock::now() - start;
-    return target.seconds == 0 || 2 * spent.count() <= target.seconds;
 }
 
 /// True if an image's tiles may need more samples after the first ones.
@@ -201,7 +187,7 @@ Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, Rende
 /// many as they need, and `given` returns the numbers.
 Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                             const Tiles& tiles, std::vector<int>& given) {
-    const auto start = Clock::now();
+    const auto start = NoiseClock::now();
     const RenderSettings& asked = scene.render;
     const int maximum = asked.samples, first = std::min(kFirstSamples, maximum);
     const double per_sample = tiles.weight / double(maximum);

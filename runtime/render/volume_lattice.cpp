@@ -8,9 +8,11 @@
 
 #include "runtime/analysis/coverage.hpp"
 #include "runtime/analysis/medium_set.hpp"
+#include "runtime/analysis/volume_scene.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/main_memory.hpp"
 #include "runtime/image/volume_geometry.hpp"
+#include "runtime/render/volume_samples.hpp"
 #include "runtime/stages/display/display_cover.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
 #include "runtime/stages/display/display_medium.hpp"
@@ -35,6 +37,14 @@ std::vector<glm::vec3> middles_of(const VolumeFrame& frame, std::span<const uint
     middles.reserve(indices.size());
     for (const uint64_t index : indices) middles.push_back(glm::vec3(cell_of(frame, index)) + 0.5f);
     return middles;
+}
+
+/// The maximum number of rays that one sample of all voxels takes: for the surfaces along each axis
+/// and, where none is met, for the voxels' points.
+uint64_t max_sampled_rays(const ShownVoxels& shown) {
+    uint64_t sum = shown.voxels.count;
+    for (const ProbePoints& points : shown.of_axes) sum += points.count;
+    return sum;
 }
 
 /// Throws Error::limit if memory doesn't suffice for `count` voxels of a medium.
@@ -123,18 +133,32 @@ class LatticeRender {
         const int samples = work_.scene.render.samples;
         display_.light(look_, light_rays, medium, batch_, shown,
                        samples == 1 || !work_.features.global);
-        if (samples == 1 || shown.voxels.count == 0) return;
+        if (samples > 1 && shown.voxels.count > 0) light_samples(light_rays, medium, shown);
+    }
+
+    void light_samples(const LightRays& light_rays, const SpaceMedium& medium, ShownVoxels& shown) {
         DisplaySampleStage stage(work_.device, work_.features, work_.camera, work_.frame,
-                                 work_.world, samples);
+                                 work_.world, work_.scene.render.samples);
         const bool is_global = work_.features.global;
-        stage.light(light_rays, medium, display_.views(), batch_, shown, is_global);
+        SampleLighting with{light_rays, medium, display_.views(), {}};
+        if (is_sampled_by_noise(work_.scene.render)) {
+            SamplesByNoise& by_noise =
+                by_noise_.emplace(work_.scene.render, max_sampled_rays(shown));
+            lit_->sample_by(by_noise, nullptr);
+            with.needed = [&](uint32_t count, const LightSamples& of) {
+                return by_noise.mean(count, of);
+            };
+        }
+        stage.light(with, batch_, shown, is_global);
         sample_rays_ = stage.rays();
-        if (!is_global) return;
-        const LightRays mean_rays = [this](RayBatch& rays, const SampledRays& which,
-                                           const LayerSink& sink) {
-            lit_->mean(rays, which, sink);
-        };
-        display_.light_rest(look_, mean_rays, medium, batch_, shown);
+        if (is_global) {
+            const LightRays mean_rays = [this](RayBatch& rays, const SampledRays& which,
+                                               const LayerSink& sink) {
+                lit_->mean(rays, which, sink);
+            };
+            display_.light_rest(look_, mean_rays, medium, batch_, shown);
+        }
+        if (by_noise_) work_.report.volume_noise = by_noise_->reached();
     }
 
     /// Measures how much of each voxel transparent surfaces cover, in scenes that have some.
@@ -193,6 +217,7 @@ class LatticeRender {
     Features geometry_;
     DisplayScanStage scan_;
     DisplayLatticeStage display_;
+    std::optional<SamplesByNoise> by_noise_;
     std::optional<VolumeLight> lit_;
     std::optional<Illumination> unlit_;  ///< where surfaces let light through
     LookAhead look_;

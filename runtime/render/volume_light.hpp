@@ -3,12 +3,15 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "runtime/image/volume.hpp"
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/render/volume_samples.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
 #include "runtime/stages/display/display_mean.hpp"
+#include "runtime/stages/trace/beam.hpp"
 
 namespace voxelume {
 
@@ -38,19 +41,32 @@ class VolumeLight {
     Illumination& illumination() { return illumination_; }
     const Illumination& illumination() const { return illumination_; }
 
-    /// Lights one sample of the light of rays.
+    /// From now on `mean` takes the samples that `needed` asks for. `beams` begin anew for them;
+    /// null: rays have none.
+    void sample_by(SamplesByNoise& needed, BeamStage* beams) {
+        needed_ = &needed;
+        beams_ = beams;
+    }
+
+    /// Lights samples of the light of rays.
     void sample(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
 
-    /// Lights rays. In global light, a ray gets the mean over the scene's samples.
+    /// Lights rays. In global light, a ray gets the mean over the scene's samples, or over those
+    /// that it needs.
     void mean(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
 
   private:
     void set_sampling(const SampledRays& rays);
+    void mean_by_noise(RayBatch& batch, const SampledRays& rays);
+    void add_samples(RayBatch& batch, const SampledRays& rays, std::span<const float> aimed,
+                     std::span<float> sums);
 
     bool transmission_;
     PathSampling sampling_;  ///< sampling of the first path of ray 0
     Illumination illumination_;
-    std::optional<DisplayMeanStage> mean_;  ///< only for several paths of a ray
+    std::optional<DisplayMeanStage> mean_;  ///< only for a fixed number of paths of a ray
+    SamplesByNoise* needed_ = nullptr;
+    BeamStage* beams_ = nullptr;
 };
 
 }  // namespace voxelume

@@ -63,6 +63,10 @@ void render_rays(VolumeWork& work, Volume& volume) {
     }
     DisplayRaysStage display(work.device, work.features, work.camera, work.frame,
                              work.scene.world.medium, environment_of(work.scene.world));
+    SamplesByNoise by_noise(work.scene.render, 16ull * tiles);
+    // Local light of one ray has no noise.
+    if (work.features.global && is_sampled_by_noise(work.scene.render))
+        light.sample_by(by_noise, beams ? &*beams : nullptr);
     for (uint32_t first = 0; first < tiles; first += in_batch) {
         const uint32_t now = std::min(in_batch, tiles - first);
         const uint32_t rays = camera.cast(shape_of(work.world), first, now, batch);
@@ -85,6 +89,7 @@ void render_rays(VolumeWork& work, Volume& volume) {
             work.progress(first + now, tiles);
         }
     }
+    work.report.volume_noise = by_noise.reached();
     count_rays(illumination, work.report);
     if (beams) {
         work.report.beams = beams->sent();

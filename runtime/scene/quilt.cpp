@@ -63,7 +63,10 @@ Scene view_of_row(const Scene& scene, const ViewRow& row, int number) {
     half.x = std::atan(std::tan(half.x) * (size.x + 2.0 * wider) / size.x);
     observer.display.square_pixels = false;
     view.render.size = {size.x + 2 * wider, size.y};
+    // A view's tiles are its own: nobody renders the wider image.
+    view.render.noise = {};
     crop(view, {pixels > 0 ? 0 : 2 * wider, 0}, size);
+    view.render.noise = scene.render.noise;
     return view;
 }
 

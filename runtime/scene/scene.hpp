@@ -88,6 +88,9 @@ struct NoiseTarget {
     friend bool operator==(const NoiseTarget&, const NoiseTarget&) = default;
 };
 
+/// With a target of noise, the number of samples after which as many are added and compared.
+inline constexpr int kFirstSamples = 16;
+
 struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels of the image
     double pixel_aspect = 1;    ///< the width of a pixel over its height

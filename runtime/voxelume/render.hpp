@@ -80,7 +80,8 @@ std::string quilt_suffix(const Quilt& quilt, Size view);
 
 /// Renders a frame's views and lays them side by side: the leftmost at the bottom left, the
 /// rightmost at the top right. The scene's image is the size of one. The observer needs a display
-/// that is a pyramid. Throws as render_image does, and Error::usage for other quilts or observers.
+/// that is a pyramid. A target of noise counts for each view, and its seconds for all. Throws as
+/// render_image does, and Error::usage for other quilts or observers.
 Image render_quilt(const Scene& scene, const std::vector<Device>& devices, const Quilt& quilt,
                    int frame = 1, const RenderOptions& options = {});
 

@@ -105,12 +105,13 @@ class Scene {
     /// Returns the scene with another number of sight rays a pixel, 1..4096.
     Scene with_samples(int samples) const;
 
-    /// Returns the scene with as many samples as its flat images need: the samples of each 4 x 4
-    /// pixels are doubled, from 16 to at most `max_samples`, until their standard error is at most
-    /// `error` times their mean light. The error is estimated as half of the difference between two
-    /// halves of the samples. With `seconds` above 0 samples are only doubled if the image's time
-    /// suffices, and an `error` of 0 is never reached. Throws Error::usage for numbers below 0, for
-    /// two zeros, for samples that aren't from 32 to 4096, and for a part of an image that
+    /// Returns the scene with as many samples as its images need: the samples of each 4 x 4 pixels,
+    /// or 16 voxels of a volumetric image, are doubled, from 16 to at most `max_samples`, until
+    /// their standard error is at most `error` times their mean light. The error is estimated as
+    /// half of the difference between two halves of the samples. With `seconds` above 0 samples are
+    /// only doubled if the image's time suffices, of which a volumetric image that is rendered with
+    /// it gets half; and an `error` of 0 is never reached. Throws Error::usage for numbers below 0,
+    /// for two zeros, for samples that aren't from 32 to 4096, and for a part of an image that
     /// `with_crop` refuses with them.
     Scene with_noise(double error, double seconds = 0, int max_samples = 4096) const;
 

@@ -84,9 +84,28 @@ TEST_F(CliQuiltTest, EyesOfSeveralFramesAndScenesHaveFilesOfTheirOwn) {
                     folder / fmt::format("{}_{}.{:04}.png", name, eye, frame)));
 }
 
+TEST_F(CliQuiltTest, ViewsTakeAsManySamplesAsTheyNeed) {
+    write_scene(lit_by_disk);
+    const std::string options = "--light global --noise 0.01 --samples 64 --channels RGBA,samples";
+    ASSERT_EQ(run("render scene.json -o q.exr --quilt 1x1 " + options).exit_code, 0);
+    ASSERT_EQ(run("render scene.json -o alone.exr " + options).exit_code, 0);
+    const Image quilt = read_exr(folder / "q_qs1x1a1.667.exr");
+    EXPECT_EQ(quilt.planes, read_exr(folder / "alone.exr").planes);
+    const auto& samples = quilt.planes.at("samples");
+    EXPECT_LT(std::ranges::min(samples), std::ranges::max(samples));
+    ASSERT_EQ(run("render scene.json -o {eye}.exr --stereo 0.1 " + options).exit_code, 0);
+    EXPECT_EQ(std::ranges::max(read_exr(folder / "left.exr").planes.at("samples")), 64);
+    // Views share the time; without enough of it they have the first samples.
+    ASSERT_EQ(run("render scene.json -o t.exr --quilt 2x1 --light global --time 0.001 "
+                  "--channels RGBA,samples")
+                  .exit_code,
+              0);
+    EXPECT_EQ(std::ranges::max(read_exr(folder / "t_qs2x1a1.667.exr").planes.at("samples")), 16);
+}
+
 TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
-    for (const char* option : {"--crop 0,0,4,4", "--shard 1/2", "--noise 0.1", "--resume",
-                               "--stats-json s.json", "--volume v.vdb"})
+    for (const char* option :
+         {"--crop 0,0,4,4", "--shard 1/2", "--resume", "--stats-json s.json", "--volume v.vdb"})
         EXPECT_THAT(
             expect_failure(2, fmt::format("render scene.json -o q.png --quilt 2x2 {}", option)),
             HasSubstr("can't be had of a quilt"));
@@ -97,7 +116,7 @@ TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
                 HasSubstr("goes to a file with a name"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o q.png --quilt 2x2 --stereo 0.06"),
                 HasSubstr("--stereo"));
-    EXPECT_THAT(expect_failure(2, "render scene.json -o q.png --stereo 0.06 --noise 0.1"),
+    EXPECT_THAT(expect_failure(2, "render scene.json -o q.png --stereo 0.06 --crop 0,0,4,4"),
                 HasSubstr("can't be had of stereo pairs"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o a{eye}.png -o aleft.png --stereo 0.06"),
                 HasSubstr("aleft.png"));

@@ -34,6 +34,12 @@ inline constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nf 1 2 3\n
 inline constexpr const char* kTetrahedron =
     "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
+/// Puts a disk that shines above the scene's box in place of its light.
+inline void lit_by_disk(Json& scene) {
+    scene["lights"] = Json::parse(R"([{"type": "disk", "position": [1.5, 1.9, 1.2],
+                                       "direction": [0, -1, -0.5], "radius": 0.6}])");
+}
+
 /// Tests with the valid scene as scene.json in their folder.
 class SceneProgramTest : public ProgramTest {
   protected:

@@ -112,6 +112,23 @@ TEST_F(StatisticsSchemaTest, HasTheNoiseThatAnImageWithATargetReached) {
     EXPECT_EQ(run("render scene.json -o a.exr --noise 0.1 --samples 16").exit_code, 2);
 }
 
+TEST_F(StatisticsSchemaTest, HasTheNoiseThatAVolumetricImageReached) {
+    write_scene(lit_by_disk);
+    const std::string options = "--light global --noise 0.05 --samples 64 ";
+    const Json both = statistics(options + "-o a.exr --volume v.json");
+    EXPECT_EQ(faults(both), "");
+    ASSERT_TRUE(both.contains("volume_noise"));
+    EXPECT_GT(both["volume_noise"], 0);
+    EXPECT_NE(both["volume_noise"], both["noise"]);
+    const Json volume = Json::parse(bytes_of(folder / "v.json"));
+    EXPECT_EQ(volume["attributes"]["noise"],
+              fmt::format("{:.5f}", both["volume_noise"].get<double>()));
+    const Json alone = statistics(options + "--volume v.json");
+    EXPECT_FALSE(alone.contains("noise"));
+    EXPECT_EQ(alone["volume_noise"], both["volume_noise"]);
+    EXPECT_FALSE(statistics("--volume v.json --light global --samples 4").contains("volume_noise"));
+}
+
 TEST_F(StatisticsSchemaTest, RefusesAMissingKeyAndOneTooMany) {
     const Json good = statistics("-o a.png");
     for (const auto& [key, value] : good.items()) {

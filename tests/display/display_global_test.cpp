@@ -155,32 +155,40 @@ TEST(GlobalDisplay, ShowsWhatFlatPicturesShowAsSamplesGrow) {
     }
 }
 
+/// Expects the same bits on other lanes and with small batches.
+void expect_same_bits_anywhere(const Scene& scene, const std::string& of) {
+    DeviceCounters& counters = shared_device().counters();
+    counters.launches.clear();
+    const Volume expected = volume_of(scene);
+    const uint64_t launches = counters.launches["extend_paths"];
+    const auto expect_same = [&](const Volume& volume, const std::string& where) {
+        EXPECT_EQ(volume.indices, expected.indices) << of << where;
+        EXPECT_TRUE(volume.colors == expected.colors) << of << where;
+    };
+    std::vector<int> others = {1, 4, 8, 16};
+    std::erase(others, shared_device().lanes());
+    for (const int lanes : in_turn(others, of == "rays" ? 1 : 2))
+        expect_same(volume_of(scene, lanes), fmt::format(", {} lanes", lanes));
+    setenv("VOXELUME_BATCH", "64", 1);
+    const Device device = test_device();
+    unsetenv("VOXELUME_BATCH");
+    device.counters().launches.clear();
+    RenderReport report;
+    expect_same(render_volume(device, scene, report), ", batches of 64");
+    EXPECT_GT(device.counters().launches["extend_paths"], 2 * launches) << of;
+}
+
 TEST(GlobalDisplay, HasTheSameBitsInAnyBatchesAndOnAnyLanes) {
     for (const char* layout : {"lattice", "rays"}) {
         // Through what lets light through, rays have local light.
         const char* opacity = layout == std::string("rays") ? "1" : "0.6";
-        const Scene scene =
+        Scene scene =
             shown(layout, kEvenSky, fmt::format(R"("opacity": {}, "reflection": 0.3)", opacity),
                   R"("light": "global", "samples": 3, "bounces": 3)", kSun);
-        DeviceCounters& counters = shared_device().counters();
-        counters.launches.clear();
-        const Volume expected = volume_of(scene);
-        const uint64_t launches = counters.launches["extend_paths"];
-        const auto expect_same = [&](const Volume& volume, const std::string& where) {
-            EXPECT_EQ(volume.indices, expected.indices) << layout << where;
-            EXPECT_TRUE(volume.colors == expected.colors) << layout << where;
-        };
-        std::vector<int> others = {1, 4, 8, 16};
-        std::erase(others, shared_device().lanes());
-        for (const int lanes : in_turn(others, layout == std::string("rays") ? 1 : 2))
-            expect_same(volume_of(scene, lanes), fmt::format(", {} lanes", lanes));
-        setenv("VOXELUME_BATCH", "64", 1);
-        const Device device = test_device();
-        unsetenv("VOXELUME_BATCH");
-        device.counters().launches.clear();
-        RenderReport report;
-        expect_same(render_volume(device, scene, report), ", batches of 64");
-        EXPECT_GT(device.counters().launches["extend_paths"], 2 * launches) << layout;
+        expect_same_bits_anywhere(scene, layout);
+        scene.render.noise.error = 0.1;
+        scene.render.samples = 64;
+        expect_same_bits_anywhere(scene, layout);
     }
 }
 
@@ -198,15 +206,6 @@ TEST(GlobalDisplay, OfRaysThroughClearObjectsIsInLocalLight) {
         ASSERT_FALSE(report.world.warnings.empty());
         EXPECT_EQ(report.world.warnings.back().kind, WarningKind::local_volume);
     }
-}
-
-// Noise is measured in pixels, and a volume has none.
-TEST(GlobalDisplay, HasFewSamplesWhereNoiseMayAskForMany) {
-    Scene scene = shown("rays", kEvenSky, "", R"("light": "global", "samples": 64)", kSun);
-    const Volume expected = volume_of(scene);
-    scene.render.noise.error = 0.1;
-    scene.render.samples = 4096;
-    EXPECT_EQ(farthest(expected, volume_of(scene)), 0);
 }
 
 TEST(GlobalDisplay, IsMadeByKernelsThatLocalLightLacks) {

@@ -111,7 +111,9 @@ class DisplayCounter {
 
     /// Counts the sums of the light of several paths.
     Buffer<float> count_mean(uint32_t rays) const {
-        if (!features_.global || all_samples(scene_.render) == 1) return {};
+        if (!features_.global || all_samples(scene_.render) == 1 ||
+            is_sampled_by_noise(scene_.render))
+            return {};
         return allocate_light_sums(device_, rays);
     }
 
@@ -180,7 +182,7 @@ class DisplayCounter {
         std::array<ProbePoints, 3> of_axes;
         if (all_samples(scene_.render) > 1) {
             for (ProbePoints& points : of_axes) points = allocate_points(device_, shown);
-            sums = allocate_sample_sums(device_, shown, rays);
+            sums = allocate_sample_sums(device_, shown, rays, is_sampled_by_noise(scene_.render));
         }
         const Buffer<uint32_t> covers =
             features_.transmission ? allocate_covers(device_, shown) : Buffer<uint32_t>();

@@ -27,12 +27,13 @@ Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& s
 /// all surfaces along each ray cover.
 using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;
 
-/// The rays 0 .. count-1 of a batch, for sample number `sample` of each point's light. The first
-/// ray belongs to point number `first`, a multiple of 16. Light that isn't shown needs no paths
-/// beyond the surface.
+/// The rays 0 .. count-1 of a batch, for `samples` samples of each point's light from number
+/// `sample` on. The first ray belongs to point number `first`, a multiple of 16; rays of sixteen
+/// points come sample by sample. Light that isn't shown needs no paths beyond the surface.
 struct SampledRays {
     uint32_t first, count, sample = 0;
     bool is_shown = true;
+    uint32_t samples = 1;
 };
 
 /// Lights rays of a batch, and calls `sink`, unless it is empty, for each layer of surfaces.

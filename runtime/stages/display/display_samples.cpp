@@ -18,19 +18,28 @@ int log2_of_slots(uint32_t samples) {
     return log2;
 }
 
-/// The offset that sample `i` adds to a voxel's shift: the fraction of a multiple of the golden
-/// ratio.
-float turn_of(uint32_t i) {
+/// What samples add to a voxel's shift: the fractions of multiples of the golden ratio.
+std::vector<float> turns_of(uint32_t samples) {
     constexpr double kGolden = 0.61803398874989485;
-    return float(kGolden * i - std::floor(kGolden * i));
+    std::vector<float> turns(samples);
+    for (uint32_t i = 0; i < samples; ++i) turns[i] = float(kGolden * i - std::floor(kGolden * i));
+    return turns;
+}
+
+/// The number of rays of samples of voxels, whose last group of sixteen may not be full.
+uint32_t rays_of(uint32_t voxels, uint32_t samples) {
+    return (voxels + 15) / 16 * 16 * samples;
 }
 
 }  // namespace
 
-SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays) {
-    return {Buffer<float>(device, "display normals", 3 * voxels),
-            Buffer<float>(device, "display sums", 4 * voxels),
-            Buffer<float>(device, "display weights", rays)};
+SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays, bool by_need) {
+    SampleSums sums;
+    sums.normals = Buffer<float>(device, "display normals", 3 * voxels);
+    sums.light = Buffer<float>(device, "display sums", 4 * voxels);
+    sums.weights = Buffer<float>(device, "display weights", rays);
+    if (by_need) sums.of_batch = Buffer<float>(device, "display batch sums", 4 * size_t(rays));
+    return sums;
 }
 
 DisplaySampleStage::DisplaySampleStage(const Device& device, const Features& features,
@@ -42,73 +51,112 @@ DisplaySampleStage::DisplaySampleStage(const Device& device, const Features& fea
       transmission_(features.transmission),
       world_(world),
       samples_(uint32_t(samples)),
+      turns_(device, "display turns", std::span<const float>(turns_of(samples_))),
       program_(device, "display/display_samples.cl", features.defines(device)),
       normals_(program_.kernel("keep_normals")),
       aim_(program_.kernel("aim_samples")),
       add_(program_.kernel("add_samples")),
       mix_(program_.kernel("mix_samples")) {}
 
-void DisplaySampleStage::add(const LightRays& light_rays, const SpaceMedium& medium,
-                             RayBatch& batch, const Facing& facing, const SampledRays& which) {
-    const uint32_t first = which.first, count = which.count;
-    const auto add = [&](const RayBatch& entries, const NodeLight& nodes) {
-        add_.launch_packets(count, shape_of(world_), lattice_, medium, entries, nodes,
-                            facing.shown.voxels.indices, sums_.weights, first, count, sums_.light);
-    };
-    if (!transmission_) {
-        light_rays(batch, which, {});
-        add(batch, {batch.radiance, {}, batch.stride});
-        return;
-    }
-    light_rays(batch, which,
-               [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
-                   if (is_first) add(entries, nodes);
-               });
+void DisplaySampleStage::aim(const SampleLighting& with, RayBatch& batch, const Part& part,
+                             const SampleAim& at) {
+    const uint32_t rays = rays_of(part.count, at.count);
+    aim_.launch_packets(rays, ProbeViews{camera_, shape_of(world_), lattice_, with.views},
+                        part.facing.points, part.facing.shown.voxels.indices, sums_.normals, at,
+                        turns_, part.first, part.count, batch.stride, sums_.weights, batch.rays);
+    rays_ += part.count * at.count;
 }
 
-/// Finds the normals at the points, with a first ray, and then lights the samples.
-void DisplaySampleStage::light_facing(const LightRays& light_rays, const SpaceMedium& medium,
-                                      const Buffer<float4>& views, RayBatch& batch,
+/// Finds the normals at the points, with a ray for each.
+void DisplaySampleStage::find_normals(const SampleLighting& with, RayBatch& batch,
+                                      const Part& part) {
+    const auto keep = [&](const RayBatch& entries) {
+        normals_.launch(WorkItem::light, part.count, entries.hits, entries.normals, entries.stride,
+                        part.first, part.count, sums_.normals);
+    };
+    aim(with, batch, part, {part.facing.points.axis, 0, 0, 1, 0, 0});
+    const SampledRays rays{part.first, part.count, 0, false};
+    if (!transmission_) {
+        with.rays(batch, rays, {});
+        return keep(batch);
+    }
+    with.rays(batch, rays, [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight&) {
+        if (is_first) keep(entries);
+    });
+}
+
+void DisplaySampleStage::add(const SampleLighting& with, RayBatch& batch, const Part& part,
+                             const SampledRays& rays) {
+    const auto add = [&](const RayBatch& entries, const NodeLight& nodes) {
+        add_.launch_packets(part.count, shape_of(world_), lattice_, with.medium, entries, nodes,
+                            part.facing.shown.voxels.indices, sums_.weights, part.first, part.count,
+                            rays.samples, part.first_sum, part.sums);
+    };
+    if (!transmission_) {
+        with.rays(batch, rays, {});
+        return add(batch, {batch.radiance, {}, batch.stride});
+    }
+    with.rays(batch, rays,
+              [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
+                  if (is_first) add(entries, nodes);
+              });
+}
+
+/// Lights as many samples at once as a batch has room for.
+void DisplaySampleStage::light_samples(const SampleLighting& with, RayBatch& batch,
+                                       const Part& part, const Samples& samples) {
+    const uint32_t room = batch.stride / rays_of(part.count, 1);
+    for (uint32_t i = 0; i < samples.count; i += room) {
+        const uint32_t now = std::min(room, samples.count - i), number = samples.first + i;
+        aim(with, batch, part,
+            {part.facing.points.axis, i, samples.count, now, number, log2_of_slots(samples.count)});
+        add(with, batch, part, {part.first, rays_of(part.count, now), number, true, now});
+    }
+}
+
+/// Adds the means of the samples that the surfaces in a batch's voxels need.
+void DisplaySampleStage::light_needed(const SampleLighting& with, RayBatch& batch,
+                                      const Part& part) {
+    const auto light = [&](uint32_t first, uint32_t count, std::span<const uint32_t> wanted) {
+        sums_.of_batch.fill(0);
+        for_wanted(wanted, part.count, [&](uint32_t ray, uint32_t rays) {
+            light_samples(with, batch, {part.facing, part.first + ray, rays, ray, sums_.of_batch},
+                          {first, count});
+        });
+        std::vector<float> sums = sums_.of_batch.read(0, 4 * size_t(part.count));
+        // Weights count slots, of which more samples have more.
+        const float scale = std::ldexp(1.0f, -2 * log2_of_slots(count)) / float(count);
+        for (float& sum : sums) sum *= scale;
+        return sums;
+    };
+    const std::vector<float> means = with.needed(part.count, light);
+    for (size_t i = 0; i < means.size(); ++i) means_[4 * size_t(part.first) + i] += means[i];
+}
+
+void DisplaySampleStage::light_facing(const SampleLighting& with, RayBatch& batch,
                                       const Facing& facing) {
     const uint32_t voxels = facing.points.count;
     sums_.normals.fill(0);
     for (uint32_t first = 0; first < voxels; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, voxels - first);
-        const auto aim = [&](uint32_t sample, uint32_t samples) {
-            const SampleAim at{facing.points.axis, sample, samples, turn_of(sample),
-                               log2_of_slots(samples_)};
-            aim_.launch_packets(count, ProbeViews{camera_, shape_of(world_), lattice_, views},
-                                facing.points, facing.shown.voxels.indices, sums_.normals, at,
-                                first, count, batch.stride, sums_.weights, batch.rays);
-            rays_ += count;
-        };
-        const auto keep = [&](const RayBatch& entries) {
-            normals_.launch(WorkItem::light, count, entries.hits, entries.normals, entries.stride,
-                            first, count, sums_.normals);
-        };
-        aim(0, 0);
-        if (transmission_)
-            light_rays(batch, {first, count, 0, false},
-                       [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight&) {
-                           if (is_first) keep(entries);
-                       });
+        const Part part{facing, first, count, first, sums_.light};
+        find_normals(with, batch, part);
+        if (with.needed)
+            light_needed(with, batch, part);
         else
-            light_rays(batch, {first, count, 0, false}, {}), keep(batch);
-        for (uint32_t i = 0; i < samples_; ++i) {
-            aim(i, samples_);
-            add(light_rays, medium, batch, facing, {first, count, i});
-        }
+            light_samples(with, batch, part, {0, samples_});
     }
 }
 
-void DisplaySampleStage::light(const LightRays& light_rays, const SpaceMedium& medium,
-                               const Buffer<float4>& views, RayBatch& batch, ShownVoxels& shown,
+void DisplaySampleStage::light(const SampleLighting& with, RayBatch& batch, ShownVoxels& shown,
                                bool clears_others) {
     const auto voxels = uint32_t(shown.voxels.count);
-    sums_ = allocate_sample_sums(device_, voxels, batch.stride);
+    sums_ = allocate_sample_sums(device_, voxels, batch.stride, with.needed != nullptr);
     sums_.light.fill(0);
-    for (const ProbePoints& points : shown.of_axes)
-        light_facing(light_rays, medium, views, batch, {shown, points});
+    if (with.needed) means_.assign(4 * size_t(voxels), 0);
+    for (const ProbePoints& points : shown.of_axes) light_facing(with, batch, {shown, points});
+    if (with.needed) sums_.light.write(means_);
+    means_ = {};
     mix_.launch(WorkItem::light, voxels, voxels, sums_.light, uint32_t(clears_others),
                 shown.voxels.colors, shown.voxels.objects);
 }

@@ -5,6 +5,7 @@
 
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
+#include "runtime/stages/display/needed_samples.hpp"
 
 namespace voxelume {
 
@@ -12,9 +13,19 @@ namespace voxelume {
 /// times weights, and of weights; for each ray of a batch its weight.
 struct SampleSums {
     Buffer<float> normals, light, weights;
+    Buffer<float> of_batch;  ///< like `light`, for each ray of a batch
 };
 
-SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays);
+/// Without `by_need` the last one is empty.
+SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays, bool by_need);
+
+/// What lights a display's samples.
+struct SampleLighting {
+    const LightRays& rays;
+    const SpaceMedium& medium;
+    const Buffer<float4>& views;
+    NeededSamples needed;  ///< empty: all voxels have the stage's number of samples
+};
 
 /// The kernels of display_samples.cl. A voxel may hold several surfaces. Each surface crosses lines
 /// along the axis that it faces most, and has a probe point on these.
@@ -26,8 +37,7 @@ class DisplaySampleStage {
 
     /// Lights the samples batch by batch, and stores their means in the voxels. With
     /// `clears_others` voxels without samples have object 0 afterwards.
-    void light(const LightRays& light_rays, const SpaceMedium& medium, const Buffer<float4>& views,
-               RayBatch& batch, ShownVoxels& shown, bool clears_others);
+    void light(const SampleLighting& with, RayBatch& batch, ShownVoxels& shown, bool clears_others);
 
     uint64_t rays() const { return rays_; }  ///< number of rays aimed so far
 
@@ -37,10 +47,25 @@ class DisplaySampleStage {
         const ShownVoxels& shown;
         const ProbePoints& points;
     };
-    void light_facing(const LightRays& light_rays, const SpaceMedium& medium,
-                      const Buffer<float4>& views, RayBatch& batch, const Facing& facing);
-    void add(const LightRays& light_rays, const SpaceMedium& medium, RayBatch& batch,
-             const Facing& facing, const SampledRays& which);
+    /// Voxels from `first` on, whose sums begin with number `first_sum` of `sums`.
+    struct Part {
+        const Facing& facing;
+        uint32_t first, count;
+        uint32_t first_sum;
+        const Buffer<float>& sums;
+    };
+    /// Samples from number `first` on, which are spread over each surface.
+    struct Samples {
+        uint32_t first, count;
+    };
+    void light_facing(const SampleLighting& with, RayBatch& batch, const Facing& facing);
+    void find_normals(const SampleLighting& with, RayBatch& batch, const Part& part);
+    void light_samples(const SampleLighting& with, RayBatch& batch, const Part& part,
+                       const Samples& samples);
+    void light_needed(const SampleLighting& with, RayBatch& batch, const Part& part);
+    void aim(const SampleLighting& with, RayBatch& batch, const Part& part, const SampleAim& at);
+    void add(const SampleLighting& with, RayBatch& batch, const Part& part,
+             const SampledRays& rays);
 
     Device device_;
     Camera camera_;
@@ -48,7 +73,9 @@ class DisplaySampleStage {
     bool transmission_;
     const Pyramid& world_;
     uint32_t samples_;
+    Buffer<float> turns_;  ///< for each sample
     SampleSums sums_;
+    std::vector<float> means_;  ///< of needed samples: four for each voxel
     Program program_;
     Kernel normals_, aim_, add_, mix_;
     uint64_t rays_ = 0;
