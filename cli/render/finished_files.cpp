@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "cli/shared/checks.hpp"
+#include "cli/shared/tell.hpp"
 
 namespace voxelume::cli {
 
@@ -47,6 +48,25 @@ bool is_current(FrameFileState state, Finished& finished) {
 
 }  // namespace
 
+bool is_finished(const std::filesystem::path& image, const std::string& hash,
+                 const ImageFileOptions& options, Overwrite overwrite, Finished& finished) {
+    std::error_code error;
+    if (overwrite == Overwrite::always) return false;
+    if (overwrite == Overwrite::never) return std::filesystem::exists(image, error);
+    return is_current(image_file_state(image, hash, options), finished);
+}
+
+void tell_of(const Finished& finished, size_t count) {
+    if (finished.frames > 0) tell("{} of {} frames are there already\n", finished.frames, count);
+    const auto again = [](size_t files, const char* one, const char* several) {
+        if (files > 0) tell("{} {}, and rendered again\n", files, files == 1 ? one : several);
+    };
+    again(finished.damaged, "file is damaged or has no hash in it",
+          "files are damaged or have no hash in them");
+    again(finished.changed, "file is of another scene, file, option or version",
+          "files are of another scene, file, option or version");
+}
+
 Finished skip_finished(const Scene& scene, const ImageFileOptions& options, Overwrite overwrite,
                        std::vector<FrameFiles>& frames) {
     Finished finished;
@@ -60,10 +80,7 @@ Finished skip_finished(const Scene& scene, const ImageFileOptions& options, Over
     std::vector<FrameFiles> left;
     for (size_t i = 0; i < frames.size(); ++i) {
         const auto has_image = [&](const std::filesystem::path& file) {
-            std::error_code error;
-            return overwrite == Overwrite::never
-                       ? std::filesystem::exists(file, error)
-                       : is_current(image_file_state(file, hashes[i], options), finished);
+            return is_finished(file, hashes.empty() ? "" : hashes[i], options, overwrite, finished);
         };
         const auto has_volume = [&](const std::filesystem::path& file) {
             return overwrite == Overwrite::never

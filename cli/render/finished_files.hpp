@@ -2,6 +2,8 @@
 // `--overwrite` and `--resume`: finds the files of frames that need no rendering.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "cli/render/frame_files.hpp"
@@ -21,6 +23,14 @@ struct Finished {
     size_t damaged = 0;  ///< damaged files, including those without a hash
     size_t changed = 0;  ///< files that were made from something else
 };
+
+/// True if an image's file with this hash, or any where none is replaced, needs no rendering. Other
+/// files are counted.
+bool is_finished(const std::filesystem::path& image, const std::string& hash,
+                 const ImageFileOptions& options, Overwrite overwrite, Finished& finished);
+
+/// Says how many of `count` frames are there, and why others are rendered again.
+void tell_of(const Finished& finished, size_t count);
 
 /// Removes files that need no rendering from the list, and frames without remaining files.
 Finished skip_finished(const Scene& scene, const ImageFileOptions& options, Overwrite overwrite,

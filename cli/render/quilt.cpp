@@ -8,7 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "cli/render/finished_files.hpp"
 #include "cli/render/frame_files.hpp"
+#include "cli/render/render_job.hpp"
 #include "cli/render/render_progress.hpp"
 #include "cli/shared/checks.hpp"
 #include "cli/shared/interrupt.hpp"
@@ -46,13 +48,11 @@ Quilt quilt_of(const QuiltChoices& choices) {
 }
 
 void refuse_others(const RenderCommand& command) {
-    const std::array<std::pair<const char*, bool>, 7> others = {
+    const std::array<std::pair<const char*, bool>, 5> others = {
         {{"--volume", !command.volumes.empty()},
          {"--crop", !command.crop.empty()},
          {"--shard", !command.shard.empty()},
          {"--stats-json", !command.stats.empty()},
-         {"--overwrite", !command.overwrite.empty() && command.overwrite != "always"},
-         {"--resume", command.resume},
          {"--dry-run", command.plan_only}}};
     for (const auto& [name, is_given] : others)
         if (is_given)
@@ -86,6 +86,29 @@ std::vector<fs::path> write_views(const std::vector<Image>& views, const Quilt& 
         written.insert(written.end(), files.begin(), files.end());
     }
     return written;
+}
+
+/// Removes the names of a frame's files that need no rendering.
+void skip_finished(const Scene& scene, const Quilt& quilt, const QuiltChoices& choices,
+                   const ImageFileOptions& options, Overwrite overwrite, FrameFiles& frame,
+                   Finished& finished) {
+    std::vector<std::string> views;
+    std::string joined;
+    if (overwrite == Overwrite::changed) {
+        views = view_hashes(scene, quilt, frame.frame);
+        joined = quilt_hash(views, quilt);
+    }
+    const auto is_there = [&](const fs::path& name) {
+        const std::vector<fs::path> files = files_of_eyes(name, choices);
+        bool all = true;
+        for (size_t eye = 0; eye < files.size(); ++eye) {
+            const std::string& hash = files.size() == 1 || views.empty() ? joined : views[eye];
+            all &= is_finished(files[eye], hash, options, overwrite, finished);
+        }
+        return all;
+    };
+    std::erase_if(frame.images, is_there);
+    finished.frames += size_t(frame.images.empty());
 }
 
 std::string kind_of(const QuiltChoices& choices, size_t frames) {
@@ -135,7 +158,7 @@ void add_quilt_options(CLI::App& app, QuiltChoices& choices) {
 }
 
 void render_quilts(const RenderCommand& command, const Scene& scene, const FrameJob& job,
-                   const std::vector<Device>& devices, const std::string& label) {
+                   LazyDevices& devices, const std::string& label) {
     refuse_others(command);
     const Quilt quilt = quilt_of(command.quilt);
     const Size size = scene.size();
@@ -158,10 +181,19 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     options.progress = [&](double of_frame, int frame) {
         progress.advance((done + of_frame) / count, frame);
     };
+    const Overwrite overwrite = overwrite_of(command);
+    Finished finished;
     std::string written;
     for (FrameFiles frame : job.frames) {
-        const std::vector<Image> views = render_views(scene, devices, quilt, frame.frame, options);
         for (fs::path& file : frame.images) file = named(file, suffix);
+        if (overwrite != Overwrite::always)
+            skip_finished(scene, quilt, command.quilt, job.image_files, overwrite, frame, finished);
+        if (frame.images.empty()) {
+            ++done;
+            continue;
+        }
+        const std::vector<Image> views =
+            render_views(scene, devices.open(), quilt, frame.frame, options);
         frame.images = write_views(views, quilt, frame.images, command.quilt, job.image_files);
         if (written.empty() && !frame.images.empty()) written = frame.images.front().string();
         progress.written(frame);
@@ -170,8 +202,10 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     }
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     progress.clear();
-    if (!command.quiet)
-        tell("{} of {} views of {}x{} in {:.2f} s: {}\n", kind_of(command.quilt, job.frames.size()),
+    if (!command.quiet) tell_of(finished, job.frames.size());
+    if (!command.quiet && finished.frames < job.frames.size())
+        tell("{} of {} views of {}x{} in {:.2f} s: {}\n",
+             kind_of(command.quilt, job.frames.size() - finished.frames),
              quilt.columns * quilt.rows, size[0], size[1], passed.count(), written);
 }
 

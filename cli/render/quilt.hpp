@@ -15,6 +15,7 @@ class App;
 
 namespace voxelume::cli {
 
+class LazyDevices;
 struct RenderCommand;
 
 /// The options of quilts and stereo pairs.
@@ -41,6 +42,6 @@ std::vector<std::filesystem::path> files_of_eyes(const std::filesystem::path& fi
 /// under names that describe them; pairs side by side or, where a name has `kEye`, one file per
 /// eye. Throws Error::usage for options that are impossible with them.
 void render_quilts(const RenderCommand& command, const Scene& scene, const FrameJob& job,
-                   const std::vector<Device>& devices, const std::string& label);
+                   LazyDevices& devices, const std::string& label);
 
 }  // namespace voxelume::cli

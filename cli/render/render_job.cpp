@@ -33,18 +33,6 @@ ProgressStyle style_of(const RenderCommand& command) {
     return command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style;
 }
 
-/// Says how many of the frames already exist, and why others are rendered again.
-void tell_of(const Finished& finished, size_t count) {
-    if (finished.frames > 0) tell("{} of {} frames are there already\n", finished.frames, count);
-    const auto again = [](size_t files, const char* one, const char* several) {
-        if (files > 0) tell("{} {}, and rendered again\n", files, files == 1 ? one : several);
-    };
-    again(finished.damaged, "file is damaged or has no hash in it",
-          "files are damaged or have no hash in them");
-    again(finished.changed, "file is of another scene, file, option or version",
-          "files are of another scene, file, option or version");
-}
-
 /// Removes finished frames from the job, and reports them. Returns whether any frames are left.
 bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
     const size_t count = job.frames.size();
@@ -119,7 +107,7 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     job.frames = frame_files(command, scene);
     check_files(job.frames, scene, command);
     if (command.quilt.is_asked_for())
-        return render_quilts(command, scene, job, lazy_devices.open(), label);
+        return render_quilts(command, scene, job, lazy_devices, label);
     if (!command.crop.empty() && command.outputs.empty() && !command.volumes.empty())
         fail_usage("render: --crop is of images, and no -o names one; --volume is whole anyway");
     if (!command.crop.empty()) scene = cropped(scene, command.crop);

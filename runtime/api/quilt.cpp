@@ -40,6 +40,34 @@ std::string hash_of(const CacheKey& key) {
     return cache_key(parts);
 }
 
+/// The views of a frame as scenes of their own, from left to right.
+std::vector<Scene> scenes_of_views(const Scene& scene, const Quilt& quilt, int frame) {
+    check_quilt(quilt);
+    voxelume::Scene now = scene_at(api::inside(scene), frame);
+    const int count = quilt.columns * quilt.rows;
+    now.render.noise.seconds /= count;
+    const ViewRow row{count, quilt.cone, quilt.focus, quilt.separation};
+    std::vector<Scene> views;
+    for (int number = 0; number < count; ++number)
+        views.push_back(api::handle_of(view_of_row(now, row, number), scene.implementation().hash,
+                                       scene.implementation().read));
+    return views;
+}
+
+struct QuiltView {
+    const Quilt& quilt;
+    int frame, number;
+};
+
+/// The hash of a view whose scene has the hash `of_scene`.
+std::string hash_of_view(const std::string& of_scene, const QuiltView& view) {
+    const Quilt& quilt = view.quilt;
+    CacheKey key;
+    key.add_text(of_scene).add(view.frame).add(view.number).add(quilt.columns * quilt.rows);
+    key.add(quilt.cone).add(quilt.focus).add(quilt.separation);
+    return hash_of(key);
+}
+
 /// True if the images have one size and the same channels.
 bool are_alike(const voxelume::Image& a, const voxelume::Image& b) {
     const auto name = [](const auto& channel) -> const std::string& { return channel.first; };
@@ -76,26 +104,35 @@ std::string quilt_suffix(const Quilt& quilt, Size view) {
     return fmt::format("_qs{}x{}a{:.4g}", quilt.columns, quilt.rows, double(view[0]) / view[1]);
 }
 
+std::vector<std::string> view_hashes(const Scene& scene, const Quilt& quilt, int frame) {
+    return api::guarded([&] {
+        std::vector<std::string> hashes;
+        for (const Scene& view : scenes_of_views(scene, quilt, frame))
+            hashes.push_back(
+                hash_of_view(frame_hashes(view, {1}).front(), {quilt, frame, int(hashes.size())}));
+        return hashes;
+    });
+}
+
+std::string quilt_hash(const std::vector<std::string>& views, const Quilt& quilt) {
+    CacheKey key;
+    for (const std::string& hash : views) key.add_text(hash);
+    key.add(quilt.columns);
+    return hash_of(key);
+}
+
 std::vector<Image> render_views(const Scene& scene, const std::vector<Device>& devices,
                                 const Quilt& quilt, int frame, const RenderOptions& options) {
     return api::guarded([&] {
-        check_quilt(quilt);
-        voxelume::Scene now = scene_at(api::inside(scene), frame);
-        const int views = quilt.columns * quilt.rows;
-        now.render.noise.seconds /= views;
-        const ViewRow row{views, quilt.cone, quilt.focus, quilt.separation};
         std::vector<Image> images;
-        for (int number = 0; number < views; ++number) {
-            const Scene view =
-                api::handle_of(view_of_row(now, row, number), scene.implementation().hash,
-                               scene.implementation().read);
+        const std::vector<Scene> views = scenes_of_views(scene, quilt, frame);
+        for (const Scene& view : views) {
+            const int number = int(images.size());
             const Image image =
-                render_image(view, devices, 1, options_of_view(options, number, views));
+                render_image(view, devices, 1, options_of_view(options, number, int(views.size())));
             api::Attributes attributes = image.implementation().attributes;
-            CacheKey key;
-            key.add_text(attributes[api::kFrameHash]).add(frame).add(number).add(views);
-            key.add(quilt.cone).add(quilt.focus).add(quilt.separation);
-            attributes[api::kFrameHash] = hash_of(key);
+            attributes[api::kFrameHash] =
+                hash_of_view(attributes[api::kFrameHash], {quilt, frame, number});
             images.push_back(api::handle_of(image.implementation().image, std::move(attributes)));
         }
         return images;
@@ -107,16 +144,15 @@ Image join_views(const std::vector<Image>& views, const Quilt& quilt) {
         check_quilt(quilt);
         check_views(views, quilt);
         std::vector<std::shared_ptr<const voxelume::Image>> images;
-        CacheKey key;
+        std::vector<std::string> hashes;
         for (const Image& view : views) {
             images.push_back(view.implementation().image);
             const api::Attributes& attributes = view.implementation().attributes;
             const auto hash = attributes.find(api::kFrameHash);
-            key.add_text(hash == attributes.end() ? "" : hash->second);
+            hashes.push_back(hash == attributes.end() ? "" : hash->second);
         }
-        key.add(quilt.columns);
         api::Attributes attributes = views.front().implementation().attributes;
-        attributes[api::kFrameHash] = hash_of(key);
+        attributes[api::kFrameHash] = quilt_hash(hashes, quilt);
         attributes.erase("noise");  // the noise of the first view alone
         return api::handle_of(
             std::make_shared<const voxelume::Image>(quilt_of(images, quilt.columns)),

@@ -103,9 +103,47 @@ TEST_F(CliQuiltTest, ViewsTakeAsManySamplesAsTheyNeed) {
     EXPECT_EQ(std::ranges::max(read_exr(folder / "t_qs2x1a1.667.exr").planes.at("samples")), 16);
 }
 
+TEST_F(CliQuiltTest, FinishedFramesStay) {
+    write_scene([](Json& scene) {
+        scene["animation"] = Json::parse(R"({"frames": 2, "tracks": [
+            {"target": "objects[0].turn", "keys": [{"frame": 1, "value": [0, 0, 0]},
+                                                   {"frame": 2, "value": [90, 40, 0]}]}]})");
+    });
+    const std::string line = "render scene.json -o q.#.png --quilt 2x1 --frames 1-2 ";
+    ASSERT_EQ(run(line).exit_code, 0);
+    const auto name = [&](int frame) {
+        return folder / fmt::format("q.{}_qs2x1a1.667.png", frame);
+    };
+    const std::string first = bytes_of(name(1)), second = bytes_of(name(2));
+    std::filesystem::remove(name(1));
+    const ProgramResult resumed = run(line + "--resume");
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_THAT(resumed.err, HasSubstr("1 of 2 frames are there already"));
+    EXPECT_EQ(bytes_of(name(1)), first);
+    EXPECT_THAT(run(line + "--resume").err, HasSubstr("2 of 2 frames are there already"));
+    // Another cone makes other pictures, and a damaged file isn't one.
+    EXPECT_THAT(run(line + "--resume --cone 20").err,
+                HasSubstr("2 files are of another scene, file, option or version"));
+    EXPECT_NE(bytes_of(name(2)), second);
+    put_bytes(name(1), "damaged");
+    EXPECT_THAT(run(line + "--overwrite never").err, HasSubstr("2 of 2 frames"));
+    EXPECT_THAT(run(line + "--cone 20 --resume").err, HasSubstr("1 file is damaged"));
+}
+
+TEST_F(CliQuiltTest, FinishedEyesStay) {
+    const std::string line = "render scene.json -o {eye}.exr -o pair.exr --stereo 0.1 ";
+    ASSERT_EQ(run(line).exit_code, 0);
+    const std::string right = bytes_of(folder / "right.exr");
+    put_bytes(folder / "right.exr", bytes_of(folder / "left.exr"));
+    const ProgramResult resumed = run(line + "--resume");
+    EXPECT_THAT(resumed.err, HasSubstr("1 file is of another scene, file, option or version"));
+    EXPECT_EQ(bytes_of(folder / "right.exr"), right);
+    EXPECT_THAT(run(line + "--resume").err, HasSubstr("1 of 1 frames are there already"));
+}
+
 TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
     for (const char* option :
-         {"--crop 0,0,4,4", "--shard 1/2", "--resume", "--stats-json s.json", "--volume v.vdb"})
+         {"--crop 0,0,4,4", "--shard 1/2", "--stats-json s.json", "--volume v.vdb"})
         EXPECT_THAT(
             expect_failure(2, fmt::format("render scene.json -o q.png --quilt 2x2 {}", option)),
             HasSubstr("can't be had of a quilt"));
