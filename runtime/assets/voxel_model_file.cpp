@@ -161,6 +161,8 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
     // Cubes have their value in the middle; distances are at the voxel's minimum corner.
     const double to_corner = stores_distances(surface) ? 0.0 : 0.5;
     model.frame.origin = voxels.origin + voxels.voxel_edges * (glm::dvec3(first) - to_corner);
+    check_reach(model.frame, file);
+    check_voxel_edge(model.frame.voxel_edge, model.frame.origin, file);
     if (stores_distances(surface))
         fill_distances(voxels, first, file, model);
     else

@@ -88,7 +88,9 @@ DeviceInfo settled(DeviceInfo info, int lanes) {
     limit_memory(info);
     info.work_group = number_in_environment("VOXELUME_WORK_GROUP");
     const auto batch = uint32_t(number_in_environment("VOXELUME_BATCH"));
-    info.batch_rays = batch > 0 ? std::min(std::max(batch, 32u), 1u << 24) : batch_for(info);
+    // Halves of batches are whole groups of sixteen rays.
+    info.batch_rays =
+        batch > 0 ? std::min(std::max(batch, 32u), 1u << 24) / 32 * 32 : batch_for(info);
     info.build_options = environment("VOXELUME_BUILD_OPTIONS");
     return info;
 }

@@ -39,11 +39,10 @@ std::vector<glm::vec3> middles_of(const VolumeFrame& frame, std::span<const uint
     return middles;
 }
 
-/// The maximum number of rays that one sample of all voxels takes: for the surfaces along each axis
-/// and, where none is met, for the voxels' points.
-uint64_t max_sampled_rays(const ShownVoxels& shown) {
-    uint64_t sum = shown.voxels.count;
-    for (const ProbePoints& points : shown.of_axes) sum += points.count;
+/// About the number of rays that one sample of all voxels takes: of the surfaces along each axis.
+uint64_t sampled_rays(const ShownVoxels& shown) {
+    uint64_t sum = 0;
+    for (const ProbePoints& points : shown.of_axes) sum += points_seen(points, 0, points.count);
     return sum;
 }
 
@@ -142,11 +141,10 @@ class LatticeRender {
         const bool is_global = work_.features.global;
         SampleLighting with{light_rays, medium, display_.views(), {}};
         if (is_sampled_by_noise(work_.scene.render)) {
-            SamplesByNoise& by_noise =
-                by_noise_.emplace(work_.scene.render, max_sampled_rays(shown));
+            SamplesByNoise& by_noise = by_noise_.emplace(work_.scene.render, sampled_rays(shown));
             lit_->sample_by(by_noise, nullptr);
-            with.needed = [&](uint32_t count, const LightSamples& of) {
-                return by_noise.mean(count, of);
+            with.needed = [&](uint32_t count, uint32_t aimed, const LightSamples& of) {
+                return by_noise.mean(count, aimed, of);
             };
         }
         stage.light(with, batch_, shown, is_global);
@@ -208,7 +206,8 @@ class LatticeRender {
     void count() const {
         work_.report.display_lines = scan_.lines();
         work_.report.clear_display_lines = scan_.clear_lines();
-        work_.report.sight_rays += scan_.lines() + display_.rays() + sample_rays_;
+        work_.report.sight_rays +=
+            scan_.lines() + display_.rays() + sample_rays_ + lit_->more_rays();
         count_rays(lit_->illumination(), work_.report);
     }
 

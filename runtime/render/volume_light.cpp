@@ -54,6 +54,7 @@ void VolumeLight::add_samples(RayBatch& batch, const SampledRays& rays,
             batch.rays.write(values, part * batch.stride);
         }
         if (beams_) beams_->start(batch, all);
+        more_rays_ += all;
         sample(batch, {rays.first, all, rays.sample + i, true, now}, {});
         for (size_t channel = 0; channel < 3; ++channel) {
             values = batch.radiance.read(channel * batch.stride, all);
@@ -66,7 +67,7 @@ void VolumeLight::add_samples(RayBatch& batch, const SampledRays& rays,
     }
 }
 
-/// Of each ray, lights the first surface alone.
+/// Gives each ray the mean light of the first surface that it meets.
 void VolumeLight::mean_by_noise(RayBatch& batch, const SampledRays& rays) {
     std::vector<float> aimed = batch.rays.read();
     const uint32_t padded = (rays.count + 15) / 16 * 16;
@@ -83,7 +84,7 @@ void VolumeLight::mean_by_noise(RayBatch& batch, const SampledRays& rays) {
         for (float& mean : means) mean /= float(count);
         return means;
     };
-    const std::vector<float> means = needed_->mean(padded, light);
+    const std::vector<float> means = needed_->mean(padded, rays.count, light);
     batch.rays.write(aimed);
     if (beams_) beams_->start(batch, rays.count);
     sample(batch, {rays.first, rays.count, 0, false}, {});

@@ -38,11 +38,14 @@ class VolumeLight {
     /// image of `tiles_across` tiles side by side.
     VolumeLight(const VolumeWork& work, uint32_t max_rays, uint32_t tiles_across);
 
+    /// The number of rays that `mean` has sent besides those that it got.
+    uint64_t more_rays() const { return more_rays_; }
+
     Illumination& illumination() { return illumination_; }
     const Illumination& illumination() const { return illumination_; }
 
-    /// From now on `mean` takes the samples that `needed` asks for. `beams` begin anew for them;
-    /// null: rays have none.
+    /// From now on `mean` takes the samples that `needed` asks for. `beams` are sent for
+    /// them again; null: rays have none.
     void sample_by(SamplesByNoise& needed, BeamStage* beams) {
         needed_ = &needed;
         beams_ = beams;
@@ -67,6 +70,7 @@ class VolumeLight {
     std::optional<DisplayMeanStage> mean_;  ///< only for a fixed number of paths of a ray
     SamplesByNoise* needed_ = nullptr;
     BeamStage* beams_ = nullptr;
+    uint64_t more_rays_ = 0;
 };
 
 }  // namespace voxelume

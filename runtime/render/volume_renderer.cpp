@@ -90,6 +90,7 @@ void render_rays(VolumeWork& work, Volume& volume) {
         }
     }
     work.report.volume_noise = by_noise.reached();
+    work.report.sight_rays += light.more_rays();
     count_rays(illumination, work.report);
     if (beams) {
         work.report.beams = beams->sent();

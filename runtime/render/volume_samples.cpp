@@ -9,6 +9,7 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kGroup = 16;
+constexpr double kNoTime = 1e-9;  ///< seconds; 0 stands for unlimited time
 
 /// The means of the light of rays, four numbers each.
 using Means = std::vector<float>;
@@ -61,14 +62,19 @@ double average_group(uint32_t group, const Means& more, Means& means) {
 }  // namespace
 
 SamplesByNoise::SamplesByNoise(const RenderSettings& render, uint64_t rays)
-    : target_(render.noise), maximum_(render.samples), all_rays_(std::max<uint64_t>(rays, 1)) {
-    target_.seconds *= time_share(render);
-}
+    : target_(render.noise),
+      maximum_(render.samples),
+      seconds_left_(render.noise.seconds * time_share(render)),
+      rays_left_(rays) {}
 
-std::vector<float> SamplesByNoise::mean(uint32_t rays, const LightSamples& light) {
-    NoiseTarget target = target_;
-    target.seconds *= double(rays) / double(all_rays_);
+std::vector<float> SamplesByNoise::mean(uint32_t rays, uint32_t aimed, const LightSamples& light) {
     const auto start = NoiseClock::now();
+    NoiseTarget target = target_;
+    if (target.seconds > 0) {
+        const double part = double(aimed) / double(std::max<uint64_t>(rays_left_, aimed));
+        target.seconds = std::max(seconds_left_ * (aimed > 0 ? part : 1), kNoTime);
+    }
+    rays_left_ -= std::min<uint64_t>(rays_left_, aimed);
     const uint32_t groups = (rays + kGroup - 1) / kGroup;
     std::vector<uint32_t> wanted(groups, 1);
     std::vector<double> errors(groups, std::numeric_limits<double>::infinity());
@@ -89,6 +95,7 @@ std::vector<float> SamplesByNoise::mean(uint32_t rays, const LightSamples& light
     }
     for (const double error : errors)
         if (std::isfinite(error)) reached_.add(error);
+    seconds_left_ -= std::chrono::duration<double>(NoiseClock::now() - start).count();
     return means;
 }
 

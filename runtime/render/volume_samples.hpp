@@ -16,18 +16,21 @@ namespace voxelume {
 /// with their tiles. A group's bits depend on no other group.
 class SamplesByNoise {
   public:
-    /// The image sends `rays` rays for each sample, among which its time is divided.
+    /// The image sends about `rays` rays for each sample, among which its time is divided. What a
+    /// part of them leaves is for those that follow.
     SamplesByNoise(const RenderSettings& render, uint64_t rays);
 
-    /// The means of the light of `rays` rays: the sums of one sample.
-    std::vector<float> mean(uint32_t rays, const LightSamples& light);
+    /// The means of the light of `rays` rays, of which `aimed` may meet something: the sums of one
+    /// sample.
+    std::vector<float> mean(uint32_t rays, uint32_t aimed, const LightSamples& light);
 
     const NoiseReached& reached() const { return reached_; }
 
   private:
     NoiseTarget target_;
     int maximum_;
-    uint64_t all_rays_;
+    double seconds_left_;
+    uint64_t rays_left_;
     NoiseReached reached_;
 };
 

@@ -59,7 +59,8 @@ struct RayCounts {
     /// The standard error of light in 4 x 4 pixels over their mean, as a root mean square over all
     /// images. Empty where none has a target of noise or time.
     std::optional<double> noise{};
-    /// The same of volumetric images, in groups of 16 voxels.
+    /// The standard error of light in groups of 16 voxels over their mean, as a root mean square
+    /// over all volumetric images. Empty where none has a target of noise or time.
     std::optional<double> volume_noise{};
 };
 

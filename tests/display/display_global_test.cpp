@@ -169,12 +169,12 @@ void expect_same_bits_anywhere(const Scene& scene, const std::string& of) {
     std::erase(others, shared_device().lanes());
     for (const int lanes : in_turn(others, of == "rays" ? 1 : 2))
         expect_same(volume_of(scene, lanes), fmt::format(", {} lanes", lanes));
-    setenv("VOXELUME_BATCH", "64", 1);
+    setenv("VOXELUME_BATCH", "100", 1);  // which is 96
     const Device device = test_device();
     unsetenv("VOXELUME_BATCH");
     device.counters().launches.clear();
     RenderReport report;
-    expect_same(render_volume(device, scene, report), ", batches of 64");
+    expect_same(render_volume(device, scene, report), ", batches of 96");
     EXPECT_GT(device.counters().launches["extend_paths"], 2 * launches) << of;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "runtime/render/volume_samples.hpp"
 #include "tests/support/display_fixture.hpp"
 
 namespace voxelume {
@@ -95,6 +96,15 @@ TEST(DisplayNoise, EndsAfterTheFirstSamplesWithoutTime) {
     }
 }
 
+TEST(DisplayNoise, IsMeasuredInHalfOfTheTimeNextToAnImage) {
+    RenderSettings render;
+    EXPECT_EQ(time_share(render), 1);
+    render.shows_volume = true;
+    EXPECT_EQ(time_share(render), 0.5);
+    render.shows_image = false;
+    EXPECT_EQ(time_share(render), 1);
+}
+
 TEST(DisplayNoise, OfLocalLightIsMeasuredWhereItHasSamples) {
     Scene scene = lit_floor("lattice", "local");
     scene.world.sky.reset();
@@ -105,6 +115,7 @@ TEST(DisplayNoise, OfLocalLightIsMeasuredWhereItHasSamples) {
     EXPECT_LE(report.volume_noise.mean(), 0.05);
     scene.render.noise = {};
     scene.render.samples = 256;
+    // The reference has the noise of 256 samples itself.
     EXPECT_LT(relative_error(volume, volume_of(scene)), 0.1);
     scene = lit_floor("rays", "local");
     scene.render.noise.error = 0.05;

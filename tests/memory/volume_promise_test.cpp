@@ -57,16 +57,19 @@ TEST(BuiltScene, OfALatticeOfGlassInAMediumTakesWhatIsPromised) {
 
 TEST(BuiltScene, OfAVolumetricImageInGlobalLightTakesWhatIsPromised) {
     for (const VolumeLayout layout : {VolumeLayout::lattice, VolumeLayout::rays})
-        for (const char* ball : {"", R"("refraction": 0.9, "ior": 1.5)"}) {
-            Scene scene = promise_room(ball, "", "", 0.04);
-            scene.observer.display.layout = layout;
-            scene.observer.display.voxels = {64, 48, 48};
-            scene.render.light = LightMode::global;
-            scene.render.samples = 3;
-            expect_volume_kept(fmt::format("global light, {}: {}",
-                                           layout == VolumeLayout::rays ? "rays" : "lattice", ball),
-                               scene);
-        }
+        for (const char* ball : {"", R"("refraction": 0.9, "ior": 1.5)"})
+            for (const double noise : {0.0, 0.2}) {
+                Scene scene = promise_room(ball, "", "", 0.04);
+                scene.observer.display.layout = layout;
+                scene.observer.display.voxels = {64, 48, 48};
+                scene.render.light = LightMode::global;
+                scene.render.noise.error = noise;
+                scene.render.samples = noise > 0 ? 32 : 3;
+                expect_volume_kept(
+                    fmt::format("global light, {}, noise {}: {}",
+                                layout == VolumeLayout::rays ? "rays" : "lattice", noise, ball),
+                    scene);
+            }
 }
 
 }  // namespace

@@ -12,10 +12,10 @@
 
 namespace voxelume {
 
-/// A value that cells along x have.
+/// A value that successive cells along +x have.
 struct ValueRun {
     float value;
-    int cells;  ///< at least 1: the first has the value, and so have those after it
+    int cells;  ///< at least 1
 };
 
 /// The active voxels of one grid.
@@ -27,8 +27,8 @@ struct VdbVoxels {
     std::vector<glm::vec3> colors;  ///< linear colours of grid `Cd`; empty without it
     glm::dvec3 voxel_edges{1.0};    ///< metres
     glm::dvec3 origin{0.0};         ///< position of the value of cell (0, 0, 0), metres
-    /// The value of any cell, active or not, and of those behind it; for level sets alone. A copy
-    /// remembers where it was asked, so each thread needs its own.
+    /// The value of any cell, active or not, and how many cells from it on have it; for level sets
+    /// alone. A copy caches nodes, so each thread needs its own.
     Runs run_at;
 };
 

@@ -86,6 +86,7 @@ class ModelReader {
         frame.voxel_edge = numbers("voxel_edge");
         if (!(std::min({frame.voxel_edge.x, frame.voxel_edge.y, frame.voxel_edge.z}) > 0))
             file_.refuse("its voxels have no size");
+        check_reach(frame, file_);
     }
 
     /// The array `name` of `count` elements. It is empty if the file has none and it isn't

@@ -103,7 +103,7 @@ void VoxCells::add_box(const CellBox& box) {
                     numbers_[size_t(x) + size_t(bricks.x) * size_t(y + bricks.y * z)];
                 if (number == kNoBrick) number = count_++;
             }
-    check_listed_bricks(count_, file_);
+    check_stored_bricks(count_, file_);
 }
 
 void VoxCells::allocate() {

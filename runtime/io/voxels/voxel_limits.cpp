@@ -42,6 +42,18 @@ void check_voxel_edge(const glm::dvec3& voxel_edge, const glm::dvec3& origin,
     }
 }
 
+void check_reach(const GridFrame& frame, const InputFile& file) {
+    constexpr double kMaxReach = 1e30;
+    const glm::dvec3 end = frame.origin + frame.voxel_edge * glm::dvec3(frame.size);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double reach = std::max(std::abs(frame.origin[axis]), std::abs(end[axis]));
+        if (!(reach <= kMaxReach))
+            file.refuse(
+                fmt::format("its voxels lie {:.3g} m away, and at most {:.0e} m are possible",
+                            reach, kMaxReach));
+    }
+}
+
 void check_stored_bricks(size_t stored, const InputFile& file) {
     if (stored > kMaxStoredBricks)
         file.refuse(

@@ -8,6 +8,7 @@
 namespace voxelume {
 
 class InputFile;
+struct GridFrame;
 
 inline constexpr int kMaxVoxelsPerAxis = 65536;
 inline constexpr double kMaxBricks = 1 << 28;
@@ -21,6 +22,10 @@ void check_voxel_span(const glm::dvec3& size, const InputFile& file);
 /// apart at the place of a model.
 void check_voxel_edge(const glm::dvec3& voxel_edge, const glm::dvec3& origin,
                       const InputFile& file);
+
+/// Throws Error::input for a model that reaches farther than 1e30 m: numbers that are computed from
+/// its place would have no room.
+void check_reach(const GridFrame& frame, const InputFile& file);
 
 /// Throws Error::input for more stored bricks than a model may have.
 void check_stored_bricks(size_t stored, const InputFile& file);

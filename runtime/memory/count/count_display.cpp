@@ -182,7 +182,8 @@ class DisplayCounter {
         std::array<ProbePoints, 3> of_axes;
         if (all_samples(scene_.render) > 1) {
             for (ProbePoints& points : of_axes) points = allocate_points(device_, shown);
-            sums = allocate_sample_sums(device_, shown, rays, is_sampled_by_noise(scene_.render));
+            sums = allocate_sample_sums(device_, shown, rays, all_samples(scene_.render),
+                                        is_sampled_by_noise(scene_.render));
         }
         const Buffer<uint32_t> covers =
             features_.transmission ? allocate_covers(device_, shown) : Buffer<uint32_t>();

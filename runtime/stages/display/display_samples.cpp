@@ -10,9 +10,10 @@ namespace voxelume {
 namespace {
 
 /// The logarithm of the number of positions in a row of the squares from which samples are chosen:
-/// at least four positions for each sample, as long as choosing takes less time than lighting.
+/// at least four positions for each sample of up to 64. Choosing among more would take longer than
+/// lighting.
 int log2_of_slots(uint32_t samples) {
-    constexpr int kMin = 3, kMax = 5;
+    constexpr int kMin = 3, kMax = 4;
     int log2 = kMin;
     while (log2 < kMax && (1u << (2 * log2)) < 4 * samples) ++log2;
     return log2;
@@ -33,8 +34,10 @@ uint32_t rays_of(uint32_t voxels, uint32_t samples) {
 
 }  // namespace
 
-SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays, bool by_need) {
+SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays, int samples,
+                                bool by_need) {
     SampleSums sums;
+    sums.turns = Buffer<float>(device, "display turns", size_t(samples));
     sums.normals = Buffer<float>(device, "display normals", 3 * voxels);
     sums.light = Buffer<float>(device, "display sums", 4 * voxels);
     sums.weights = Buffer<float>(device, "display weights", rays);
@@ -51,7 +54,6 @@ DisplaySampleStage::DisplaySampleStage(const Device& device, const Features& fea
       transmission_(features.transmission),
       world_(world),
       samples_(uint32_t(samples)),
-      turns_(device, "display turns", std::span<const float>(turns_of(samples_))),
       program_(device, "display/display_samples.cl", features.defines(device)),
       normals_(program_.kernel("keep_normals")),
       aim_(program_.kernel("aim_samples")),
@@ -63,7 +65,8 @@ void DisplaySampleStage::aim(const SampleLighting& with, RayBatch& batch, const 
     const uint32_t rays = rays_of(part.count, at.count);
     aim_.launch_packets(rays, ProbeViews{camera_, shape_of(world_), lattice_, with.views},
                         part.facing.points, part.facing.shown.voxels.indices, sums_.normals, at,
-                        turns_, part.first, part.count, batch.stride, sums_.weights, batch.rays);
+                        sums_.turns, part.first, part.count, batch.stride, sums_.weights,
+                        batch.rays);
     rays_ += part.count * at.count;
 }
 
@@ -129,7 +132,8 @@ void DisplaySampleStage::light_needed(const SampleLighting& with, RayBatch& batc
         for (float& sum : sums) sum *= scale;
         return sums;
     };
-    const std::vector<float> means = with.needed(part.count, light);
+    const uint32_t aimed = points_seen(part.facing.points, part.first, part.count);
+    const std::vector<float> means = with.needed(part.count, aimed, light);
     for (size_t i = 0; i < means.size(); ++i) means_[4 * size_t(part.first) + i] += means[i];
 }
 
@@ -151,7 +155,9 @@ void DisplaySampleStage::light_facing(const SampleLighting& with, RayBatch& batc
 void DisplaySampleStage::light(const SampleLighting& with, RayBatch& batch, ShownVoxels& shown,
                                bool clears_others) {
     const auto voxels = uint32_t(shown.voxels.count);
-    sums_ = allocate_sample_sums(device_, voxels, batch.stride, with.needed != nullptr);
+    sums_ =
+        allocate_sample_sums(device_, voxels, batch.stride, int(samples_), with.needed != nullptr);
+    sums_.turns.write(turns_of(samples_));
     sums_.light.fill(0);
     if (with.needed) means_.assign(4 * size_t(voxels), 0);
     for (const ProbePoints& points : shown.of_axes) light_facing(with, batch, {shown, points});

@@ -13,11 +13,13 @@ namespace voxelume {
 /// times weights, and of weights; for each ray of a batch its weight.
 struct SampleSums {
     Buffer<float> normals, light, weights;
+    Buffer<float> turns;     ///< for each sample
     Buffer<float> of_batch;  ///< like `light`, for each ray of a batch
 };
 
 /// Without `by_need` the last one is empty.
-SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays, bool by_need);
+SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays, int samples,
+                                bool by_need);
 
 /// What lights a display's samples.
 struct SampleLighting {
@@ -73,7 +75,6 @@ class DisplaySampleStage {
     bool transmission_;
     const Pyramid& world_;
     uint32_t samples_;
-    Buffer<float> turns_;  ///< for each sample
     SampleSums sums_;
     std::vector<float> means_;  ///< of needed samples: four for each voxel
     Program program_;

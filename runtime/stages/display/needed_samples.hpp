@@ -16,8 +16,10 @@ namespace voxelume {
 using LightSamples = std::function<std::vector<float>(uint32_t first, uint32_t count,
                                                       std::span<const uint32_t> wanted)>;
 
-/// Returns the means over as many samples of the light of `rays` rays as they need.
-using NeededSamples = std::function<std::vector<float>(uint32_t rays, const LightSamples& light)>;
+/// Returns the means over as many samples of the light of `rays` rays as they need. About `aimed`
+/// of them may meet something.
+using NeededSamples =
+    std::function<std::vector<float>(uint32_t rays, uint32_t aimed, const LightSamples& light)>;
 
 /// Calls `use` with the first ray and the number of rays of each run of groups that are wanted, of
 /// `rays` rays in all.

@@ -3,6 +3,11 @@
 
 namespace voxelume {
 
+uint32_t points_seen(const ProbePoints& points, uint32_t first, uint32_t count) {
+    const std::vector<uint32_t> views = points.views.read(first, count);
+    return count - uint32_t(std::ranges::count(views, kNoView));
+}
+
 ProbePoints allocate_points(const Device& device, uint32_t count) {
     ProbePoints points;
     points.count = count;

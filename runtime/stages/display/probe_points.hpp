@@ -51,6 +51,9 @@ void bind(KernelArguments& to, const CrossingArrays& arrays);
 
 /// Arrays for `count` points, which have no views yet; and arrays for the crossings of `lines`
 /// lines, with `slots` slots for each, and for their surfaces.
+/// The number of `count` points from `first` on that have a view. Waits for the device.
+uint32_t points_seen(const ProbePoints& points, uint32_t first, uint32_t count);
+
 ProbePoints allocate_points(const Device& device, uint32_t count);
 Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots);
 Buffer<uint32_t> allocate_surfaces(const Device& device, uint32_t lines, uint32_t slots);

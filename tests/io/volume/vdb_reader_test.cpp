@@ -127,7 +127,7 @@ TEST_F(VdbReaderTest, AModelHasTheVoxelsOfOneThatIsReadHere) {
             ASSERT_EQ(run.value, here.run_at(cell).value) << i;
             ASSERT_GE(run.cells, 1) << i;
             for (const int x : {1, run.cells / 2, run.cells - 1})
-                ASSERT_EQ(isolated.run_at(cell + glm::ivec3(x % run.cells, 0, 0)).value, run.value)
+                ASSERT_EQ(here.run_at(cell + glm::ivec3(x % run.cells, 0, 0)).value, run.value)
                     << i;
         }
     }

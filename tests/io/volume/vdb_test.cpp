@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <openvdb/openvdb.h>
 
+#include "runtime/assets/voxel_model_file.hpp"
+#include "runtime/geometry/voxel_model.hpp"
 #include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
 
@@ -135,6 +137,59 @@ TEST_F(VdbTest, AnyTruncationIsAnInputError) {
          length += bytes.size() / (is_exhaustive() ? 40 : 15)) {
         put_bytes(path(), bytes.substr(0, length));
         EXPECT_EQ(error_of([&] { read_vdb_summary(path()); }).exit_code(), 4) << length;
+    }
+}
+
+TEST_F(VdbTest, VoxelsAreAsLongAsTheirPlaceCanTell) {
+    openvdb::initialize();
+    const auto fog = openvdb::FloatGrid::create(0.0f);
+    fog->tree().setValue(openvdb::Coord(1, 2, 3), 1.0f);
+    fog->setTransform(std::make_shared<openvdb::math::Transform>(openvdb::math::MapBase::Ptr(
+        new openvdb::math::UniformScaleTranslateMap(0.25, openvdb::Vec3d(0, 1e12, 0)))));
+    openvdb::io::File(path().string()).write({fog});
+    EXPECT_THAT(error_of([&] { read_voxel_model(path(), Surface::cubes); }).what(),
+                HasSubstr("its voxels are 0.25 m long, and at least 1 m are possible"));
+}
+
+// Tiles of each size, behind a background below zero, and runs that end in them.
+TEST_F(VdbTest, ALevelSetHasItsSignsInsideTilesToo) {
+    openvdb::initialize();
+    const auto set = openvdb::FloatGrid::create(-2.0f);
+    set->setGridClass(openvdb::GRID_LEVEL_SET);
+    set->tree().addTile(2, openvdb::Coord(-128, 0, 0), 2.0f, false);  // 128 cells
+    set->tree().addTile(1, openvdb::Coord(8, 0, 0), 2.0f, false);     // 8 cells
+    set->tree().setValue(openvdb::Coord(-300, 7, 7), 0.5f);
+    set->tree().setValue(openvdb::Coord(40, 7, 7), 0.5f);
+    openvdb::io::File(path().string()).write({set});
+    const VoxelModel model = read_voxel_model(path(), Surface::smooth);
+    const glm::ivec3 bricks = model.frame.bricks();
+    const glm::dvec3 first = model.frame.origin / model.frame.voxel_edge;
+    size_t inside = 0, outside = 0;
+    for (size_t brick = 0; brick < model.slots.size(); ++brick) {
+        const glm::ivec3 corner =
+            glm::ivec3(first) + 16 * glm::ivec3(int(brick) % bricks.x,
+                                                int(brick) / bricks.x % bricks.y,
+                                                int(brick) / bricks.x / bricks.y);
+        const openvdb::Coord at(corner.x, corner.y, corner.z);
+        const bool is_inside = set->tree().getValue(at) < 0;
+        if (model.slots[brick] == kBrickInside) EXPECT_TRUE(is_inside) << at;
+        if (model.slots[brick] == kBrickOutside) EXPECT_FALSE(is_inside) << at;
+        inside += model.slots[brick] == kBrickInside;
+        outside += model.slots[brick] == kBrickOutside;
+    }
+    EXPECT_GT(inside, 5u);
+    EXPECT_GE(outside, 5u);
+    for (size_t slot = 0; slot < model.coordinates.size(); ++slot) {
+        const auto brick = int(model.coordinates[slot]);
+        const glm::ivec3 corner =
+            glm::ivec3(first) + 16 * glm::ivec3(brick % bricks.x, brick / bricks.x % bricks.y,
+                                                brick / bricks.x / bricks.y);
+        for (int i = 0; i < 4096; ++i) {
+            const openvdb::Coord at(corner.x + (i & 15), corner.y + (i >> 4 & 15),
+                                    corner.z + (i >> 8));
+            ASSERT_EQ(model.distance[slot * 4096 + size_t(i)] < 0, set->tree().getValue(at) < 0)
+                << at;
+        }
     }
 }
 

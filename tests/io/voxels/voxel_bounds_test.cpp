@@ -10,6 +10,7 @@
 #include "runtime/io/voxel_art/block_colors.hpp"
 #include "runtime/io/voxel_art/cell_bricks.hpp"
 #include "runtime/io/voxel_file_table.hpp"
+#include "runtime/io/voxels/voxel_limits.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/voxel_cells.hpp"
 #include "tests/support/writers/array_writer.hpp"
@@ -83,6 +84,20 @@ TEST_F(VoxelBoundsTest, SmallFilesDontSpanIndicesOfGigabytes) {
     EXPECT_EQ(read_voxel_model(folder / "b.qb", Surface::cubes, 0, {}).voxels(), 2u);
     put_bytes(folder / "c.qb", qb_of(1, 1) + full_slice(1500));
     EXPECT_EQ(read_voxel_model(folder / "c.qb", Surface::cubes, 0, {}).voxels(), 2250000u);
+}
+
+TEST_F(VoxelBoundsTest, ModelsReachAsFarAsNumbersHaveRoom) {
+    put_bytes(folder / "b", "x");
+    const InputFile file(folder / "b");
+    GridFrame frame;
+    frame.size = {16, 16, 16};
+    check_reach(frame, file);
+    frame.voxel_edge = glm::dvec3(1, 1e308, 1);  // whose end has no number
+    EXPECT_THAT(error_of([&] { check_reach(frame, file); }).what(),
+                HasSubstr("its voxels lie inf m away, and at most 1e+30 m are possible"));
+    frame.voxel_edge = glm::dvec3(1);
+    frame.origin.z = -1e31;
+    EXPECT_THAT(error_of([&] { check_reach(frame, file); }).what(), HasSubstr("1e+31 m away"));
 }
 
 TEST_F(VoxelBoundsTest, BinvoxRunsAreAddedUpFirst) {
