@@ -48,6 +48,7 @@ std::vector<Scene> scenes_of_views(const Scene& scene, const Quilt& quilt, int f
     now.render.noise.seconds /= count;
     const ViewRow row{count, quilt.cone, quilt.focus, quilt.separation};
     std::vector<Scene> views;
+    views.reserve(size_t(count));
     for (int number = 0; number < count; ++number)
         views.push_back(api::handle_of(view_of_row(now, row, number), scene.implementation().hash,
                                        scene.implementation().read));

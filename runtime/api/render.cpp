@@ -277,10 +277,8 @@ Statistics render_frames(const Scene& scene, const std::vector<Device>& devices,
 Image render_image(const Scene& scene, const std::vector<Device>& devices, int frame,
                    const RenderOptions& options, Statistics* statistics) {
     std::optional<Image> image;
-    FrameJob job;
-    job.frames = {{.frame = frame}};
-    job.deliver_images = true;
-    job.deliver = [&image](const RenderedFrame& rendered) { image = rendered.image; };
+    const auto take = [&image](const RenderedFrame& rendered) { image = rendered.image; };
+    const FrameJob job{.frames = {{.frame = frame}}, .deliver = take, .deliver_images = true};
     Statistics of_run = render_frames(scene, devices, job, options);
     if (statistics) *statistics = std::move(of_run);
     return *image;
@@ -289,10 +287,8 @@ Image render_image(const Scene& scene, const std::vector<Device>& devices, int f
 Volume render_volume(const Scene& scene, const std::vector<Device>& devices, int frame,
                      const RenderOptions& options, Statistics* statistics) {
     std::optional<Volume> volume;
-    FrameJob job;
-    job.frames = {{.frame = frame}};
-    job.deliver_volumes = true;
-    job.deliver = [&volume](const RenderedFrame& rendered) { volume = rendered.volume; };
+    const auto take = [&volume](const RenderedFrame& rendered) { volume = rendered.volume; };
+    const FrameJob job{.frames = {{.frame = frame}}, .deliver = take, .deliver_volumes = true};
     Statistics of_run = render_frames(scene, devices, job, options);
     if (statistics) *statistics = std::move(of_run);
     return *volume;

@@ -137,9 +137,10 @@ Channels needed_channels(const FrameJob& job, const RenderOptions& options = {})
 /// .png, .nrrd, .vdb, .ply), with a hash of all their bytes.
 std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames);
 
-/// The same of a frame's views, from left to right, and of the image that join_views makes of views
-/// with these hashes. Throws as render_views does.
+/// The hashes of a frame's views, from left to right. Throws as render_views does.
 std::vector<std::string> view_hashes(const Scene& scene, const Quilt& quilt, int frame = 1);
+
+/// The hash of the image that join_views makes of views with these hashes.
 std::string quilt_hash(const std::vector<std::string>& views, const Quilt& quilt);
 
 /// The hashes of the frames' volumetric images, which are whole where the scene has a crop.

@@ -198,16 +198,10 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const SpaceM
     for (uint32_t first = 0; first < task.points.count; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, task.points.count - first);
         aim(task.points, 0, first, count, batch);
-        if (!transmission_) {
-            light_rays(batch, {first, count, 0, task.is_shown}, {});
-            keep(medium, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
-            continue;
-        }
-        // The nearest surface belongs to the voxel; surfaces behind have voxels of their own.
-        light_rays(batch, {first, count, 0, task.is_shown},
-                   [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
-                       if (is_first) keep(medium, entries, nodes, task, first, count, voxels);
-                   });
+        light_nearest(light_rays, transmission_, batch, {first, count, 0, task.is_shown},
+                      [&](const RayBatch& entries, const NodeLight& nodes) {
+                          keep(medium, entries, nodes, task, first, count, voxels);
+                      });
     }
 }
 

@@ -40,6 +40,21 @@ struct SampledRays {
 using LightRays =
     std::function<void(RayBatch& batch, const SampledRays& rays, const LayerSink& sink)>;
 
+/// Lights rays and calls `use` with the batch, and the light, of the nearest surfaces: those behind
+/// them have voxels of their own.
+template <class Use>
+void light_nearest(const LightRays& light_rays, bool transmission, RayBatch& batch,
+                   const SampledRays& rays, const Use& use) {
+    if (!transmission) {
+        light_rays(batch, rays, {});
+        return use(batch, NodeLight{batch.radiance, {}, batch.stride});
+    }
+    light_rays(batch, rays,
+               [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
+                   if (is_first) use(entries, nodes);
+               });
+}
+
 /// The kernels of display_lattice.cl: the paper's blocks 2 and 3.
 class DisplayLatticeStage {
   public:

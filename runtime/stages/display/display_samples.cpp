@@ -73,36 +73,23 @@ void DisplaySampleStage::aim(const SampleLighting& with, RayBatch& batch, const 
 /// Finds the normals at the points, with a ray for each.
 void DisplaySampleStage::find_normals(const SampleLighting& with, RayBatch& batch,
                                       const Part& part) {
-    const auto keep = [&](const RayBatch& entries) {
-        normals_.launch(WorkItem::light, part.count, entries.hits, entries.normals, entries.stride,
-                        part.first, part.count, sums_.normals);
-    };
     aim(with, batch, part, {part.facing.points.axis, 0, 0, 1, 0, 0});
-    const SampledRays rays{part.first, part.count, 0, false};
-    if (!transmission_) {
-        with.rays(batch, rays, {});
-        return keep(batch);
-    }
-    with.rays(batch, rays, [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight&) {
-        if (is_first) keep(entries);
-    });
+    light_nearest(with.rays, transmission_, batch, {part.first, part.count, 0, false},
+                  [&](const RayBatch& entries, const NodeLight&) {
+                      normals_.launch(WorkItem::light, part.count, entries.hits, entries.normals,
+                                      entries.stride, part.first, part.count, sums_.normals);
+                  });
 }
 
 void DisplaySampleStage::add(const SampleLighting& with, RayBatch& batch, const Part& part,
                              const SampledRays& rays) {
-    const auto add = [&](const RayBatch& entries, const NodeLight& nodes) {
-        add_.launch_packets(part.count, shape_of(world_), lattice_, with.medium, entries, nodes,
-                            part.facing.shown.voxels.indices, sums_.weights, part.first, part.count,
-                            rays.samples, part.first_sum, part.sums);
-    };
-    if (!transmission_) {
-        with.rays(batch, rays, {});
-        return add(batch, {batch.radiance, {}, batch.stride});
-    }
-    with.rays(batch, rays,
-              [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
-                  if (is_first) add(entries, nodes);
-              });
+    light_nearest(with.rays, transmission_, batch, rays,
+                  [&](const RayBatch& entries, const NodeLight& nodes) {
+                      add_.launch_packets(part.count, shape_of(world_), lattice_, with.medium,
+                                          entries, nodes, part.facing.shown.voxels.indices,
+                                          sums_.weights, part.first, part.count, rays.samples,
+                                          part.first_sum, part.sums);
+                  });
 }
 
 /// Lights as many samples at once as a batch has room for.
