@@ -24,8 +24,8 @@ struct Finished {
     size_t changed = 0;  ///< files that were made from something else
 };
 
-/// True if an image's file with this hash, or any where none is replaced, needs no rendering. Other
-/// files are counted.
+/// True if an image's file needs no rendering: by its hash or, where no file is replaced, since it
+/// exists. Files that are rendered again are counted.
 bool is_finished(const std::filesystem::path& image, const std::string& hash,
                  const ImageFileOptions& options, Overwrite overwrite, Finished& finished);
 

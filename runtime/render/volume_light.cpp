@@ -95,14 +95,7 @@ void VolumeLight::mean_by_noise(RayBatch& batch, const SampledRays& rays) {
     }
 }
 
-void VolumeLight::mean(RayBatch& batch, const SampledRays& rays, const LayerSink& sink) {
-    if (needed_ && rays.is_shown) {
-        mean_by_noise(batch, rays);
-        if (sink && transmission_)
-            sink(batch, rays.count, true, {batch.radiance, batch.coverage, batch.stride});
-        return;
-    }
-    if (!mean_) return sample(batch, rays, sink);
+void VolumeLight::mean_of_fixed(RayBatch& batch, const SampledRays& rays) {
     for (uint32_t path = 0; path < mean_->paths(); ++path) {
         set_sampling({rays.first, rays.count, path});
         if (path == 0)
@@ -111,6 +104,15 @@ void VolumeLight::mean(RayBatch& batch, const SampledRays& rays, const LayerSink
             illumination_.light_hits(batch, rays.count);
         mean_->add(path, batch, rays.count);
     }
+}
+
+void VolumeLight::mean(RayBatch& batch, const SampledRays& rays, const LayerSink& sink) {
+    if (needed_ && rays.is_shown)
+        mean_by_noise(batch, rays);
+    else if (mean_)
+        mean_of_fixed(batch, rays);
+    else
+        return sample(batch, rays, sink);
     if (sink && transmission_)
         sink(batch, rays.count, true, {batch.radiance, batch.coverage, batch.stride});
 }

@@ -44,8 +44,8 @@ class VolumeLight {
     Illumination& illumination() { return illumination_; }
     const Illumination& illumination() const { return illumination_; }
 
-    /// From now on `mean` takes the samples that `needed` asks for. `beams` are sent for
-    /// them again; null: rays have none.
+    /// From now on `mean` takes the samples that `needed` asks for. `beams` are sent again for
+    /// them; null: rays have none.
     void sample_by(SamplesByNoise& needed, BeamStage* beams) {
         needed_ = &needed;
         beams_ = beams;
@@ -60,6 +60,7 @@ class VolumeLight {
 
   private:
     void set_sampling(const SampledRays& rays);
+    void mean_of_fixed(RayBatch& batch, const SampledRays& rays);
     void mean_by_noise(RayBatch& batch, const SampledRays& rays);
     void add_samples(RayBatch& batch, const SampledRays& rays, std::span<const float> aimed,
                      std::span<float> sums);

@@ -2,6 +2,7 @@
 #include "runtime/render/volume_samples.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -71,8 +72,8 @@ std::vector<float> SamplesByNoise::mean(uint32_t rays, uint32_t aimed, const Lig
     const auto start = NoiseClock::now();
     NoiseTarget target = target_;
     if (target.seconds > 0) {
-        const double part = double(aimed) / double(std::max<uint64_t>(rays_left_, aimed));
-        target.seconds = std::max(seconds_left_ * (aimed > 0 ? part : 1), kNoTime);
+        const double part = double(aimed) / double(std::max<uint64_t>({rays_left_, aimed, 1}));
+        target.seconds = std::max(seconds_left_ * part, kNoTime);
     }
     rays_left_ -= std::min<uint64_t>(rays_left_, aimed);
     const uint32_t groups = (rays + kGroup - 1) / kGroup;
