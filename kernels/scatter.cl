@@ -91,7 +91,7 @@ kernel void pass_layer(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
     NewRays on;
     add_layer(&layer, &batch, first, first_layer, &nodes, node_weights, &on);
     const lane_int through = layer.hit & LANE_MASK(1.0f - layer.opacity > 0.0f);
-    on.weight = path_float(paths, VXL_PATH_WEIGHT, stride, first);
+    on.weight = VXL_GLOBAL ? (lane_float)1.0f : path_float(paths, VXL_PATH_WEIGHT, stride, first);
     const lane_int goes_on = through & LANE_MASK(on.weight * largest(on.throughput) >= min_weight);
     count_lanes(through & ~goes_on, counters + VXL_COUNT_ENDED);
     if (!lanes_any(goes_on)) return;

@@ -22,11 +22,17 @@ typedef struct {
 } LayerLight;
 
 /// Subtracts the light of earlier layers, `seen`, from the node's light, and adds the layer to
-/// `seen`.
+/// `seen`. With VXL_OWN_LIGHT, nodes hold one layer alone.
 static inline LayerLight take_light(const NodeLight* nodes, uint ray, bool goes_on, bool hit,
                                     global float* restrict seen) {
     const uint stride = nodes->stride;
     LayerLight l;
+    if (VXL_OWN_LIGHT) {
+        for (uint c = 0; c < 3; ++c) l.light[c] = nodes->radiance[c * stride + ray];
+        l.clear_before = 1.0f;
+        l.clear = 1.0f - nodes->coverage[ray];
+        return l;
+    }
     for (uint c = 0; c < 3; ++c) {
         const float before = goes_on ? seen[c * stride + ray] : 0.0f;
         l.light[c] = nodes->radiance[c * stride + ray] - before;

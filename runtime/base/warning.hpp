@@ -33,7 +33,6 @@ enum class WarningKind : uint8_t {
                          ///< again
     ignored_scattering,  ///< scattering of the medium in local light
     rounded_edges,       ///< edges of a smooth solid whose formula is too deep
-    local_volume,        ///< a volumetric image in local light, where global light is asked for
     one_moment,          ///< an image that shows one moment of an open shutter
 };
 

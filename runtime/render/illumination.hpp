@@ -65,6 +65,11 @@ class Illumination {
         light_all(batch, count, sink, false);
     }
 
+    /// For features with `own_light`: calls `sink` for each layer of surfaces that the rays go
+    /// straight through, with the layer's own light and coverage alone. Nodes of rays that don't
+    /// come to a layer hold no light.
+    void light_layers(RayBatch& batch, uint32_t count, const LayerSink& sink);
+
     /// Fills the same data for rays whose hits are known already.
     void light_hits(RayBatch& batch, uint32_t count) { light_all(batch, count, {}, true); }
 
@@ -131,6 +136,7 @@ class Illumination {
     HollowObjects hollow_;  ///< only for observers inside media
     Buffer<uint32_t> hollow_flags_;
     std::vector<std::unique_ptr<PathDepth>> depths_;  ///< made when rays first come to them
+    std::optional<LayerRays> layers_;                 ///< only for `light_layers`
     uint64_t secondary_rays_ = 0, light_beams_ = 0;
 };
 

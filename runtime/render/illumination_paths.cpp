@@ -119,4 +119,22 @@ void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_kn
     if (features_.transmission) std::swap(batch.coverage, depth.nodes.coverage);
 }
 
+void Illumination::light_layers(RayBatch& batch, uint32_t count, const LayerSink& sink) {
+    if (!layers_) layers_ = allocate_layers(device_, features_, batch.stride);
+    begin_paths(batch, count);
+    RayBatch* entries = &batch;
+    for (bool is_first = true; count > 0; is_first = false) {
+        trace_.closest(world_, *entries, count);
+        if (!is_first) depths_[0]->nodes.radiance.fill(0);
+        trace_paths(*entries, count, true);
+        NodeLight own = {entries->radiance, entries->coverage, entries->stride};
+        sink(*entries, count, is_first, own);
+        Children none;
+        count = scatter_->layer(world_, *entries, count, is_first, none, own, layers_->next);
+        if (count > 0) std::swap(static_cast<RayQueue&>(layers_->entries), layers_->next);
+        entries = &layers_->entries;
+        secondary_rays_ += count;
+    }
+}
+
 }  // namespace voxelume

@@ -58,14 +58,29 @@ class VolumeLight {
     /// that it needs.
     void mean(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
 
+    /// Calls `sink` for each layer of surfaces that let light through, with the same mean of the
+    /// layer's own light. For features with `own_light`.
+    void mean_of_layers(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
+
   private:
+    struct CopiedRays;
+    /// For each layer three sums of light for each ray.
+    using LayerSums = std::vector<std::vector<float>>;
+    struct LightSums {
+        std::span<float> of_rays;  ///< four: three of light, and of hits
+        LayerSums* of_layers;      ///< null: only the light of the first surfaces is wanted
+    };
+
     void set_sampling(const SampledRays& rays);
     void mean_of_fixed(RayBatch& batch, const SampledRays& rays);
     void mean_by_noise(RayBatch& batch, const SampledRays& rays);
-    void add_samples(RayBatch& batch, const SampledRays& rays, std::span<const float> aimed,
-                     std::span<float> sums);
+    std::vector<float> means(RayBatch& batch, const SampledRays& rays, LayerSums* of_layers);
+    void add_samples(RayBatch& batch, const SampledRays& rays, uint32_t first,
+                     std::span<const float> aimed, LightSums& sums);
+    void add_lit(RayBatch& batch, uint32_t all, const CopiedRays& ray_of, LightSums& sums);
 
     bool transmission_;
+    uint32_t samples_;
     PathSampling sampling_;  ///< sampling of the first path of ray 0
     Illumination illumination_;
     std::optional<DisplayMeanStage> mean_;  ///< only for a fixed number of paths of a ray

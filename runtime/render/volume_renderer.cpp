@@ -76,7 +76,10 @@ void render_rays(VolumeWork& work, Volume& volume) {
                                {entries, count, is_first, nodes, first * 16});
         };
         if (beams) beams->start(batch, rays);
-        light.mean(batch, {first * 16, rays}, keep_layer);
+        if (work.features.own_light)
+            light.mean_of_layers(batch, {first * 16, rays}, keep_layer);
+        else
+            light.mean(batch, {first * 16, rays}, keep_layer);
         if (!display.has_layers())
             display.keep(shape_of(work.world), batch, first * 16, rays);
         else if (!work.features.transmission)
@@ -127,10 +130,8 @@ uint32_t count_not_finite(const Volume& volume) {
 Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld& built,
                      RenderReport& report, const FrameProgress& progress) {
     const Pyramid& world = built.pyramid;
-    const Scene scene = volume_scene(shown, world);
+    const Scene scene = volume_scene(shown);
     const auto start = std::chrono::steady_clock::now();
-    if (scene.render.light != shown.render.light)
-        add_once(local_volume_warning(shown), report.world.warnings);
     const VolumeFrame frame = display_frame(scene);
     VolumeWork work = {device, scene,
                        world,  volume_features(scene, world),

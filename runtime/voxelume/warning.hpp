@@ -26,7 +26,6 @@ enum class WarningKind {
     cache_not_writable,   ///< nothing can be kept on disk
     ignored_scattering,   ///< local light doesn't follow what the medium scatters
     rounded_edges,        ///< a smooth solid is nested too deeply for all edges to stay sharp
-    local_volume,         ///< a volumetric image can't show the global light that is asked for
     one_moment            ///< a shutter is open, and an image with one sample shows one moment
 };
 

@@ -117,14 +117,10 @@ Scene clear_scene(const std::string& keys, const std::string& world, const std::
 std::pair<double, double> difference(Scene scene, const Volume& volume, bool everywhere) {
     const glm::ivec3& size = volume.frame.size;
     const size_t pixels = size_t(size.x) * size_t(size.y);
-    std::vector<glm::dvec3> flat(pixels, glm::dvec3(0));
+    const std::vector<glm::dvec3> flat = flattened(volume, glm::dvec3(scene.world.background));
     std::vector<double> transmittance(pixels, 1);
-    for (size_t i = 0; i < volume.indices.size(); ++i) {
-        const size_t pixel = volume.indices[i] % pixels;
-        flat[pixel] +=
-            transmittance[pixel] * double(volume.opacities[i]) * glm::dvec3(volume.colors[i]);
-        transmittance[pixel] *= 1 - double(volume.opacities[i]);
-    }
+    for (size_t i = 0; i < volume.indices.size(); ++i)
+        transmittance[volume.indices[i] % pixels] *= 1 - double(volume.opacities[i]);
     resize(scene, {size.x, size.y});
     RenderReport report;
     const Image image = render(test_device(), scene, report);
@@ -134,9 +130,8 @@ std::pair<double, double> difference(Scene scene, const Volume& volume, bool eve
         if (!everywhere && a < 1) continue;
         coverage = std::max(coverage, std::abs(1 - transmittance[i] - a));
         for (int c = 0; c < 3; ++c) {
-            const double laid = flat[i][c] + transmittance[i] * double(scene.world.background[c]);
             const double found = double(image.planes.at(std::string(1, "RGB"[c]))[i]);
-            color = std::max(color, std::abs(laid - found));
+            color = std::max(color, std::abs(flat[i][c] - found));
         }
     }
     return {color, coverage};

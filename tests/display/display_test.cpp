@@ -113,21 +113,6 @@ TEST_P(Rays, HoldSurfacesWithinHalfAStep) {
 INSTANTIATE_TEST_SUITE_P(Shapes, Rays, testing::ValuesIn(kDisplayCases),
                          [](const auto& shape) { return shape.param.name; });
 
-/// The colours of a volume composited along each ray, front to back, in front of `behind`.
-std::vector<glm::dvec3> flattened(const Volume& volume, const glm::dvec3& behind) {
-    const size_t pixels = size_t(volume.frame.size.x) * size_t(volume.frame.size.y);
-    std::vector<glm::dvec3> colors(pixels, glm::dvec3(0));
-    std::vector<double> transmittance(pixels, 1);
-    for (size_t i = 0; i < volume.indices.size(); ++i) {  // indices ascend, by step
-        const size_t pixel = volume.indices[i] % pixels;
-        const double opacity = volume.opacities[i];
-        colors[pixel] += transmittance[pixel] * opacity * glm::dvec3(volume.colors[i]);
-        transmittance[pixel] *= 1 - opacity;
-    }
-    for (size_t i = 0; i < pixels; ++i) colors[i] += transmittance[i] * behind;
-    return colors;
-}
-
 constexpr const char* kPointLight =
     R"({"type": "point", "position": [-1, 2, -1.5], "intensity": 6},
        {"type": "directional", "direction": [1, -1, 0.4], "color": [0.2, 0.3, 0.4]})";

@@ -57,7 +57,7 @@ TEST(BuiltScene, OfALatticeOfGlassInAMediumTakesWhatIsPromised) {
 
 TEST(BuiltScene, OfAVolumetricImageInGlobalLightTakesWhatIsPromised) {
     for (const VolumeLayout layout : {VolumeLayout::lattice, VolumeLayout::rays})
-        for (const char* ball : {"", R"("refraction": 0.9, "ior": 1.5)"})
+        for (const char* ball : {"", R"("refraction": 0.9, "ior": 1.5)", R"("opacity": 0.4)"})
             for (const double noise : {0.0, 0.2}) {
                 Scene scene = promise_room(ball, "", "", 0.04);
                 scene.observer.display.layout = layout;

@@ -70,4 +70,19 @@ inline Volume volume_of(const Scene& scene, int lanes = 0) {
     return render_volume(lanes == 0 ? shared_device() : test_device(lanes), scene, report);
 }
 
+/// The colours of a volume composited along each ray, front to back, in front of `behind`.
+inline std::vector<glm::dvec3> flattened(const Volume& volume, const glm::dvec3& behind) {
+    const size_t pixels = size_t(volume.frame.size.x) * size_t(volume.frame.size.y);
+    std::vector<glm::dvec3> colors(pixels, glm::dvec3(0));
+    std::vector<double> transmittance(pixels, 1);
+    for (size_t i = 0; i < volume.indices.size(); ++i) {  // indices ascend, by step
+        const size_t pixel = volume.indices[i] % pixels;
+        const double opacity = volume.opacities[i];
+        colors[pixel] += transmittance[pixel] * opacity * glm::dvec3(volume.colors[i]);
+        transmittance[pixel] *= 1 - opacity;
+    }
+    for (size_t i = 0; i < pixels; ++i) colors[i] += transmittance[i] * behind;
+    return colors;
+}
+
 }  // namespace voxelume

@@ -6,6 +6,7 @@
 
 #include "lib/light/child_rays.h"
 #include "lib/light/paths.h"
+#include "lib/light/sent_rays.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/ray_queue.h"
@@ -39,34 +40,30 @@ static inline Layer load_layer(const Surroundings* around, global const uint* re
 }
 
 /// Adds the layer's light and coverage to its nodes. `on` gets what is left of both for the layers
-/// behind.
+/// behind. With VXL_OWN_LIGHT, which keeps layers apart, nothing is added.
 static inline void add_layer(const Layer* l, const RayBatch* batch, uint first, uint first_layer,
                              const NodeLight* nodes, global float* restrict node_weights,
                              NewRays* on) {
     const uint stride = batch->stride;
     const lane_float left = 1.0f - l->opacity;
-    int add[VXL_LANES];
-    uint node[VXL_LANES];
-    LANES_STORE(l->valid, add, 0);
-    LANES_STORE(l->target, node, 0);
     for (uint c = 0; c < 3; ++c) {
         const lane_float before = path_float(batch->paths, VXL_PATH_THROUGHPUT + c, stride, first);
-        float light[VXL_LANES];
-        LANES_STORE(before * LANES_LOAD(batch->radiance, c * stride + first), light, 0);
-        for (int lane = 0; lane < VXL_LANES; ++lane) {
-            if (!add[lane]) continue;
-            global float* sum = nodes->radiance + c * nodes->stride + node[lane];
-            *sum = first_layer ? light[lane] : *sum + light[lane];
-        }
+        if (!VXL_OWN_LIGHT)
+            add_to_nodes(nodes, c, l->valid, l->target,
+                         before * LANES_LOAD(batch->radiance, c * stride + first), first_layer);
         lane_float behind = before;
         if (VXL_ABSORBS) behind *= LANES_LOAD(batch->transmittance, c * stride + first);
-        LANES_STORE(behind * l->opacity, node_weights, c * stride + first);
+        if (!VXL_GLOBAL) LANES_STORE(behind * l->opacity, node_weights, c * stride + first);
         on->throughput[c] = behind * left;
     }
     const lane_float clear = path_float(batch->paths, VXL_PATH_CLEAR, stride, first);
     on->clear = LANES_SELECT(l->hit, clear * left, clear);
-    if (nodes->coverage == 0) return;
+    if (VXL_OWN_LIGHT || nodes->coverage == 0) return;
+    int add[VXL_LANES];
+    uint node[VXL_LANES];
     float covered[VXL_LANES];
+    LANES_STORE(l->valid, add, 0);
+    LANES_STORE(l->target, node, 0);
     LANES_STORE(1.0f - on->clear, covered, 0);
     for (int lane = 0; lane < VXL_LANES; ++lane)
         if (add[lane]) nodes->coverage[node[lane]] = covered[lane];
@@ -88,6 +85,11 @@ static inline void go_straight(PyramidShape shape, const Layer* l, const Surroun
     on->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     on->cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     on->target = l->target;
+    if (VXL_GLOBAL) {  // nothing has scattered the path
+        on->state = met_after(LANES_LOAD(batch->paths, VXL_PATH_STATE * stride + first));
+        on->emitter = (lane_uint)0;
+        on->travelled = on->density = (lane_float)0.0f;
+    }
     on->media = cross_counted(
         load_medium_set(batch->paths, stride, first, l->valid), l->packed, l->leaving,
         goes_on & bodies_of(around, batch, first, l->packed, l->hit), around->medium_overflows);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "runtime/analysis/volume_scene.hpp"
 #include "runtime/analysis/warnings/inside_warnings.hpp"
 #include "runtime/analysis/warnings/mesh_warnings.hpp"
 #include "runtime/analysis/warnings/object_warnings.hpp"
@@ -81,11 +80,6 @@ void add_shutter_warning(const Scene& scene, std::vector<Warning>& warnings) {
         warnings);
 }
 
-void add_volume_warning(const Scene& scene, std::vector<Warning>& warnings) {
-    if (scene.render.shows_volume && drops_global_light(scene))
-        add_once(local_volume_warning(scene), warnings);
-}
-
 /// Adds the warning that a folder of the cache keeps nothing, and what each run does because of it.
 void add_cache_warning(const std::filesystem::path& folder, const std::string& refusal,
                        const char* consequence, std::vector<Warning>& warnings) {
@@ -140,7 +134,6 @@ std::vector<Warning> still_true(const Scene& first, const Scene& now,
     if (std::ranges::any_of(candidates, is_of_place)) add_inside_warnings(now, meshes, found);
     add_light_warning(now, found);
     add_scattering_warning(now, found);
-    add_volume_warning(now, found);
     add_shutter_warning(now, found);
     return found;
 }
@@ -171,7 +164,6 @@ std::vector<Warning> scene_warnings(const Scene& scene, std::span<const int> fra
             add_inside_warnings(now, meshes, warnings);
             add_light_warning(now, warnings);
             add_scattering_warning(now, warnings);
-            add_volume_warning(now, warnings);
             add_shutter_warning(now, warnings);
             first = std::move(now);
         });

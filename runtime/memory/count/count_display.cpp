@@ -97,8 +97,11 @@ class DisplayCounter {
         const double steps = features_.medium ? steps_in_world() : 1;
         const double shown = is_minimum_ ? 1 : steps * all;
         if (features_.transmission || features_.medium_grid) {
+            const bool adds_layers = features_.transmission && !features_.own_light;
             const Buffer<float> seen(device_, "display layers",
-                                     features_.transmission ? size_t(in_batch) * 4 : 1);
+                                     adds_layers ? size_t(in_batch) * 4 : 1);
+            const LayerRays layers =
+                features_.own_light ? allocate_layers(device_, features_, in_batch) : LayerRays();
             const Buffer<uint32_t> words(device_, "display layers",
                                          size_t(in_batch) * VXL_LAYER_WORDS);
             return shown;
@@ -112,7 +115,8 @@ class DisplayCounter {
     /// Counts the sums of the light of several paths.
     Buffer<float> count_mean(uint32_t rays) const {
         if (!features_.global || all_samples(scene_.render) == 1 ||
-            is_sampled_by_noise(scene_.render))
+            is_sampled_by_noise(scene_.render) ||
+            (features_.own_light && frame_.layout == VolumeLayout::rays))
             return {};
         return allocate_light_sums(device_, rays);
     }
@@ -218,7 +222,7 @@ class DisplayCounter {
 
 double count_volume(const Device& device, const Scene& scene, const Pyramid& world,
                     const DensityPlan& medium, Estimate estimate) {
-    const Scene shown = volume_scene(scene, world);
+    const Scene shown = volume_scene(scene);
     return DisplayCounter(device, shown, world, medium, estimate).run();
 }
 

@@ -87,7 +87,7 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
                                    const Medium& medium, const Environment& environment)
     : device_(device),
       has_layers_(features.transmission || features.medium_grid),
-      transmission_(features.transmission),
+      adds_layers_(features.transmission && !features.own_light),
       medium_colors_(features.medium_colors),
       camera_(camera),
       steps_(display_steps(frame, medium)),
@@ -116,7 +116,7 @@ void DisplayRaysStage::keep(const PyramidShape& world, const RayBatch& batch, ui
 void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* density,
                                   const Layer& layer) {
     const auto& [entries, count, is_first, nodes, first_ray] = layer;
-    if (transmission_ && seen_.size() < size_t(nodes.stride) * 4)
+    if (adds_layers_ && seen_.size() < size_t(nodes.stride) * 4)
         seen_ = Buffer<float>(device_, "display layers", size_t(nodes.stride) * 4);
     const Buffer<uint32_t> words(device_, "display layers", size_t(count) * VXL_LAYER_WORDS);
     layer_.value().launch(WorkItem::light, count, camera_, shape_of(world), steps_,

@@ -100,7 +100,9 @@ class DisplayRaysStage {
     void measure_density(const Pyramid& world, const DensityGrid& density, const Layer& layer,
                          LayerRecords& records);
 
-    bool has_layers_, transmission_, medium_colors_;
+    bool has_layers_;
+    bool adds_layers_;  ///< nodes hold the sum of all layers so far
+    bool medium_colors_;
     Camera camera_;
     DisplaySteps steps_;
     float near_depth_;

@@ -163,6 +163,15 @@ PathDepth allocate_depth(const Device& device, const Features& features, bool is
     return depth;
 }
 
+LayerRays allocate_layers(const Device& device, const Features& features, uint32_t slots) {
+    LayerRays layers;
+    ArrayMaker maker(device, slots);
+    make_batch(features, maker, layers.entries);
+    make_queue(features, maker, layers.next);
+    layers.entries.stride = layers.next.stride = slots;
+    return layers;
+}
+
 RayArrays allocate_rays(const Device& device, const Features& features, const RayCounts& counts) {
     RayArrays arrays;
     arrays.batch = allocate_batch(device, features, counts.rays);

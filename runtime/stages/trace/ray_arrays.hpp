@@ -59,6 +59,14 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
 PathDepth allocate_depth(const Device& device, const Features& features, bool is_first,
                          uint32_t slots);
 
+/// The rays that continue straight through surfaces in global light, layer by layer.
+struct LayerRays {
+    RayBatch entries;
+    RayQueue next;  ///< rays of the next layer
+};
+
+LayerRays allocate_layers(const Device& device, const Features& features, uint32_t slots);
+
 /// The number of slots of a depth from 1 on: those for all rays that are followed together.
 uint32_t depth_slots(const Features& features, uint32_t max_rays, size_t depth);
 
