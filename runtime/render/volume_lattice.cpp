@@ -88,7 +88,7 @@ class LatticeRender {
                            volume);
         leave_out_unlit(volume);
         if (shows_medium()) add_medium(volume);
-        tell_progress(3);
+        work_.advance(1);
         count();
     }
 
@@ -100,11 +100,11 @@ class LatticeRender {
         return geometry;
     }
 
-    void tell_progress(uint32_t done) const {
-        work_.has_begun = true;
-        if (!work_.progress) return;
-        work_.device.finish();
-        work_.progress(done, 3);
+    /// Finding points and views of them takes about as long as lighting one sample of each, and so
+    /// does the rest.
+    void tell_progress(double steps) const {
+        const int samples = work_.scene.render.samples;
+        work_.advance(steps / (3 + (samples > 1 ? samples : 0)));
     }
 
     /// Prepares lighting of points, and `look_`, which finds what hides them.
@@ -139,7 +139,10 @@ class LatticeRender {
         DisplaySampleStage stage(work_.device, work_.features, work_.camera, work_.frame,
                                  work_.world, work_.scene.render.samples);
         const bool is_global = work_.features.global;
-        SampleLighting with{light_rays, medium, display_.views(), {}};
+        SampleLighting with{light_rays, medium, display_.views(), {}, {}};
+        with.progress = [this](double part) {
+            tell_progress(2 + part * work_.scene.render.samples);
+        };
         if (is_sampled_by_noise(work_.scene.render)) {
             SamplesByNoise& by_noise = by_noise_.emplace(work_.scene.render, sampled_rays(shown));
             lit_->sample_by(by_noise, nullptr);

@@ -28,6 +28,19 @@ struct VolumeLight::CopiedRays {
     size_t operator()(size_t n) const { return first + n / 16 / copies * 16 + n % 16; }
 };
 
+void VolumeWork::advance(double part) {
+    done = part;
+    has_begun = true;
+    go_on();
+}
+
+void VolumeWork::go_on() const {
+    constexpr uint32_t kSteps = 1 << 20;
+    if (!progress) return;
+    device.finish();
+    progress(uint32_t(done * kSteps), kSteps);
+}
+
 void count_rays(const Illumination& illumination, RenderReport& report) {
     report.shadow_rays = illumination.shadow_rays();
     report.light_beams = illumination.light_beams();
@@ -37,7 +50,8 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
 }
 
 VolumeLight::VolumeLight(const VolumeWork& work, uint32_t max_rays, uint32_t tiles_across)
-    : transmission_(work.features.transmission),
+    : work_(work),
+      transmission_(work.features.transmission),
       samples_(uint32_t(work.scene.render.samples)),
       sampling_{0, tiles_across, 1, uint32_t(work.scene.render.bounces), 0, 0, 0},
       illumination_(work.device, work.features, work.scene, work.world, max_rays) {
@@ -105,6 +119,7 @@ void VolumeLight::add_samples(RayBatch& batch, const SampledRays& rays, uint32_t
         more_rays_ += all;
         set_sampling({rays.first, all, rays.sample + i, true, now});
         add_lit(batch, all, ray_of, sums);
+        work_.go_on();
     }
 }
 
@@ -174,6 +189,7 @@ void VolumeLight::mean_of_fixed(RayBatch& batch, const SampledRays& rays) {
         else
             illumination_.light_hits(batch, rays.count);
         mean_->add(path, batch, rays.count);
+        work_.go_on();
     }
 }
 

@@ -26,6 +26,12 @@ struct VolumeWork {
     RenderReport& report;
     const FrameProgress& progress;
     bool has_begun = false;  ///< a part of it is done
+    double done = 0;         ///< the part that was told last
+
+    /// Tells that this part of the image is done, after all enqueued work.
+    void advance(double part);
+    /// Tells the same as before, so that who wants the image no longer can say so.
+    void go_on() const;
 };
 
 /// The numbers of the rays that illumination has sent.
@@ -79,6 +85,7 @@ class VolumeLight {
                      std::span<const float> aimed, LightSums& sums);
     void add_lit(RayBatch& batch, uint32_t all, const CopiedRays& ray_of, LightSums& sums);
 
+    const VolumeWork& work_;
     bool transmission_;
     uint32_t samples_;
     PathSampling sampling_;  ///< sampling of the first path of ray 0

@@ -85,12 +85,8 @@ void render_rays(VolumeWork& work, Volume& volume) {
         else if (!work.features.transmission)
             keep_layer(batch, rays, true, {batch.radiance, {}, batch.stride});
         work.report.sight_rays += rays;
-        work.has_begun = true;
         share_compiled_kernels(work.device);
-        if (work.progress) {
-            work.device.finish();
-            work.progress(first + now, tiles);
-        }
+        work.advance(double(first + now) / tiles);
     }
     work.report.volume_noise = by_noise.reached();
     work.report.sight_rays += light.more_rays();

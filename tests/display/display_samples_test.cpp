@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/render/renderer.hpp"
 #include "tests/support/display_fixture.hpp"
@@ -157,6 +159,30 @@ TEST(DisplaySamples, OfSurfacesThatLightPassesAreThoseOfOpaqueOnes) {
     }
     EXPECT_GT(found, 600u);
     EXPECT_EQ(far, 0u);
+}
+
+// Whoever no longer wants the image ends it by throwing, so it must not light for long in silence.
+TEST(DisplaySamples, TellWhatIsDoneWhileTheyAreLit) {
+    for (const auto& [layout, error] : {std::pair{VolumeLayout::lattice, 0.0},
+                                        {VolumeLayout::lattice, 0.05},
+                                        {VolumeLayout::rays, 0.0},
+                                        {VolumeLayout::rays, 0.05}}) {
+        Scene scene = parsed(wall_scene("cubes", "world", "0.5"));
+        scene.observer.display.layout = layout;
+        scene.render.light = LightMode::global;
+        scene.render.samples = 64;
+        scene.render.noise.error = error;
+        std::vector<double> told;
+        const auto progress = [&](uint32_t done, uint32_t total) {
+            told.push_back(double(done) / total);
+        };
+        RenderReport report;
+        render_volume(shared_device(), scene, report, progress);
+        EXPECT_GT(told.size(), 3u) << error;
+        EXPECT_TRUE(std::ranges::is_sorted(told)) << error;
+        ASSERT_FALSE(told.empty());
+        EXPECT_EQ(told.back(), 1) << error;
+    }
 }
 
 TEST(DisplaySamples, LeaveTheVoxelsAsTheyAre) {

@@ -101,6 +101,8 @@ void DisplaySampleStage::light_samples(const SampleLighting& with, RayBatch& bat
         aim(with, batch, part,
             {part.facing.points.axis, i, samples.count, now, number, log2_of_slots(samples.count)});
         add(with, batch, part, {part.first, rays_of(part.count, now), number, true, now});
+        const double lit = with.needed ? 0 : part.count * double(i + now) / samples.count;
+        if (with.progress) with.progress((done_ + lit) / all_);
     }
 }
 
@@ -136,6 +138,7 @@ void DisplaySampleStage::light_facing(const SampleLighting& with, RayBatch& batc
             light_needed(with, batch, part);
         else
             light_samples(with, batch, part, {0, samples_});
+        done_ += count;
     }
 }
 
@@ -147,6 +150,8 @@ void DisplaySampleStage::light(const SampleLighting& with, RayBatch& batch, Show
     sums_.turns.write(turns_of(samples_));
     sums_.light.fill(0);
     if (with.needed) means_.assign(4 * size_t(voxels), 0);
+    done_ = 0;
+    all_ = 3.0 * voxels;
     for (const ProbePoints& points : shown.of_axes) light_facing(with, batch, {shown, points});
     if (with.needed) sums_.light.write(means_);
     means_ = {};

@@ -27,6 +27,8 @@ struct SampleLighting {
     const SpaceMedium& medium;
     const Buffer<float4>& views;
     NeededSamples needed;  ///< empty: all voxels have the stage's number of samples
+    std::function<void(double part)> progress;  ///< called with the part that is done, batch by
+                                                ///< batch
 };
 
 /// The kernels of display_samples.cl. A voxel may hold several surfaces. Each surface crosses lines
@@ -80,6 +82,7 @@ class DisplaySampleStage {
     Program program_;
     Kernel normals_, aim_, add_, mix_;
     uint64_t rays_ = 0;
+    double done_ = 0, all_ = 1;  ///< voxels, once for each axis that surfaces face
 };
 
 }  // namespace voxelume
