@@ -70,6 +70,11 @@ class AssetStore {
     /// file, and where nothing is kept on disk.
     std::string source_of(const Model& model);
 
+    /// A hash of the voxels of a model that has a file of them, or of some in memory. Empty for
+    /// voxels with triangles, and where nothing is kept on disk. Throws Error::input as voxels()
+    /// does.
+    const std::string& source_of_voxels(const Model& model);
+
     /// Retains the loaded contents of a model's files past the next call of `forget_unused`.
     /// Contents that were used since its last call are always retained. Unused meshes and voxels
     /// are retained only if they take no more than `room` bytes, which are subtracted from `room`.
@@ -120,7 +125,11 @@ class AssetStore {
         MeshSummary summary;  ///< summary of the voxels' mesh
     };
 
+    /// The file, the surface that it is read as, its map, the part and the values.
+    using VoxelKey = std::tuple<std::filesystem::path, Surface, MapKey, int, VoxelValues>;
+
     static MapKey key_of(const FileMap& map);
+    static VoxelKey voxel_key(const Model& model);
     /// A file, and the part of it that is meant; 0: all of it.
     using MeshName = std::pair<std::filesystem::path, int>;
 
@@ -157,9 +166,8 @@ class AssetStore {
     std::map<std::filesystem::path, std::string> sources_;  ///< hashes of whole files
     std::map<std::filesystem::path, std::shared_ptr<const GltfFile>> gltf_files_;
     std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last used
-    /// Keyed by the file, the surface that it is read as, its map, the part and the values.
-    using VoxelKey = std::tuple<std::filesystem::path, Surface, MapKey, int, VoxelValues>;
     std::map<VoxelKey, VoxelFile> voxels_;
+    std::map<VoxelKey, std::string> voxel_sources_;  ///< hashes of their contents
     std::map<std::filesystem::path, VoxFile> vox_files_;
     std::set<std::filesystem::path> used_;
     std::set<std::string> used_morphs_;  ///< names of models

@@ -44,10 +44,14 @@ VoxelModel AssetStore::read_voxels(const Model& model) {
                : read_coded_model(model.voxels, model.surface, model.part, model.values);
 }
 
+AssetStore::VoxelKey AssetStore::voxel_key(const Model& model) {
+    return {model.voxels, model.surface, key_of(model.object_from_file), model.part, model.values};
+}
+
 const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {
     used_.insert(model.voxels);
     const FileMap& map = model.object_from_file;
-    const VoxelKey key(model.voxels, model.surface, key_of(map), model.part, model.values);
+    const VoxelKey key = voxel_key(model);
     const auto found = voxels_.find(key);
     if (found != voxels_.end()) return found->second;
     const LoadTimer timer(load_seconds_);
@@ -71,6 +75,14 @@ const VoxFile& AssetStore::vox_file(const std::filesystem::path& file) {
 
 const VoxelModel& AssetStore::voxels(const Model& model) {
     return voxel_file(model).voxels;
+}
+
+const std::string& AssetStore::source_of_voxels(const Model& model) {
+    const auto [entry, is_new] = voxel_sources_.try_emplace(voxel_key(model));
+    if (!is_new || !cache_.is_open()) return entry->second;
+    const VoxelModel& all = voxels(model);
+    if (all.mesh.triangles.empty()) entry->second = voxels_source(all);
+    return entry->second;
 }
 
 }  // namespace voxelume

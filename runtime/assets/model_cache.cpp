@@ -13,6 +13,7 @@
 #include "runtime/base/files/cache_key.hpp"
 #include "runtime/base/files/producer_hash.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/geometry/voxel_model.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/io/gltf/gltf_file.hpp"
@@ -121,6 +122,31 @@ std::string grid_key(const std::string& source, const VoxelizeOptions& options,
     return key_of({producers(), "grid", source, words.bytes()});
 }
 
+std::string voxels_source(const VoxelModel& voxels) {
+    CacheKey key;
+    const GridFrame& frame = voxels.frame;
+    key.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
+    key.add(int(voxels.surface)).add(int(voxels.set)).add(voxels.transparent);
+    for (const std::string& group : voxels.groups) key.add_text(group);
+    const auto bytes_of = [](const auto& values) {
+        return std::string_view(reinterpret_cast<const char*>(values.data()),
+                                values.size() * sizeof values[0]);
+    };
+    const std::array<std::string_view, 12> parts = {"voxels",
+                                                    key.bytes(),
+                                                    bytes_of(voxels.slots),
+                                                    bytes_of(voxels.coordinates),
+                                                    bytes_of(voxels.occupancy),
+                                                    bytes_of(voxels.distance),
+                                                    bytes_of(voxels.attributes),
+                                                    bytes_of(voxels.colors),
+                                                    bytes_of(voxels.normals),
+                                                    bytes_of(voxels.color_codes),
+                                                    bytes_of(voxels.palette),
+                                                    bytes_of(voxels.full_colors)};
+    return cache_key(parts);
+}
+
 std::string world_key(std::string_view parts) {
     return key_of({producers(), "world", parts});
 }
@@ -170,10 +196,21 @@ bool ModelCache::is_quick(double seconds, uint64_t bytes) const {
     return seconds < min_seconds_ || (min_seconds_ > 0 && seconds < reading);
 }
 
+/// True from the second call for a key on, in this run or another.
+bool ModelCache::was_made_before(const std::string& key) const {
+    const std::array<std::string_view, 2> parts = {"made before", key};
+    const std::string note = cache_key(parts);
+    if (store_.read(note)) return true;
+    store_.write(note, {});
+    return false;
+}
+
 void ModelCache::keep(const std::string& key, const BrickGrid& grid, double seconds) const {
     if (!is_open_ || is_quick(seconds, device_bytes(grid))) return;
     try {
-        if (const auto bytes = bytes_of_grid(grid, max_entry_bytes())) store_.write(key, *bytes);
+        auto bytes = bytes_of_grid(grid, max_new_entry_bytes());
+        if (!bytes && was_made_before(key)) bytes = bytes_of_grid(grid, max_entry_bytes());
+        if (bytes) store_.write(key, *bytes);
     } catch (const std::bad_alloc&) {
         return;  // too little memory for a second copy is no reason to stop
     }
@@ -188,6 +225,7 @@ std::optional<Pyramid> ModelCache::world(const Device& device, const std::string
 void ModelCache::keep(const std::string& key, const Pyramid& world, double seconds) const {
     const uint64_t bytes = bytes_of(world);
     if (!keeps_worlds() || is_quick(seconds, bytes) || bytes > max_entry_bytes()) return;
+    if (bytes > max_new_entry_bytes() && !was_made_before(key)) return;
     try {
         store_.write(key, bytes_of_pyramid(world));
     } catch (const std::bad_alloc&) {

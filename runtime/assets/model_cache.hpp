@@ -17,6 +17,8 @@
 
 namespace voxelume {
 
+struct VoxelModel;
+
 /// Names the bytes of a mesh file and of the files that it leads to, and so the mesh that they are
 /// read as. Only the extension of the file's own name counts.
 std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
@@ -32,6 +34,9 @@ std::string thin_source(const std::string& source, double voxel_edge, bool is_th
 
 /// Names a mesh that is morphed from one source to another; `to` is empty for a sphere.
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph);
+
+/// Names voxels without triangles.
+std::string voxels_source(const VoxelModel& voxels);
 
 /// Names the voxels of the mesh that `source` names. The name is equal on all devices, because
 /// their bits are equal.
@@ -94,7 +99,8 @@ class ModelCache {
     /// has too little memory.
     std::optional<BrickGrid> grid(const Device& device, const std::string& key) const;
     /// Keeps a grid that took `seconds` to make. A grid that would take more than an eighth of the
-    /// cache isn't kept: a few of them would displace all other entries.
+    /// cache is kept when it is made for the second time, for a few such grids displace all other
+    /// entries; one that would take more than half of it never is.
     void keep(const std::string& key, const BrickGrid& grid, double seconds) const;
 
     /// The next two do the same for worlds without instances. Worlds count by the bytes that they
@@ -104,7 +110,7 @@ class ModelCache {
     /// True if a world that took `seconds` to make is worth keeping for its time, but exceeds the
     /// limit of size.
     bool is_too_large(uint64_t bytes, double seconds) const;
-    uint64_t max_entry_bytes() const { return max_bytes_ / 8; }
+    uint64_t max_entry_bytes() const { return max_bytes_ / 2; }
 
     /// The winding number of the mesh that `source` names around a point, if it is known.
     std::optional<double> winding(const std::string& source, const glm::dvec3& point) const;
@@ -113,6 +119,8 @@ class ModelCache {
 
   private:
     bool is_quick(double seconds, uint64_t bytes) const;
+    uint64_t max_new_entry_bytes() const { return max_bytes_ / 8; }
+    bool was_made_before(const std::string& key) const;
 
     bool is_open_ = false;
     bool keeps_worlds_ = false;

@@ -63,11 +63,11 @@ void add_large_world(const World& world, uint64_t bytes, double seconds, const M
                      std::vector<Warning>& warnings) {
     if (!cache.is_too_large(bytes, seconds)) return;
     add_once({WarningKind::world_not_cached, world.where,
-              fmt::format("its voxels take {}, and the cache keeps no entry above {}, an eighth "
-                          "of its size, so each run builds them again: set VOXELUME_CACHE_MB to "
-                          "{} or more",
+              fmt::format("its voxels take {}, and the cache keeps no entry above {}, half of its "
+                          "size, so each run builds them again: set VOXELUME_CACHE_MB to {} or "
+                          "more",
                           bytes_text(double(bytes)), bytes_text(double(cache.max_entry_bytes())),
-                          (bytes * 8 >> 20) + 1)},
+                          (bytes * 2 >> 20) + 1)},
              warnings);
 }
 

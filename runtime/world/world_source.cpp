@@ -24,8 +24,13 @@ void add_solid(CacheKey& words, const Solid& solid) {
     for (const Solid& part : solid.parts) add_solid(words, part);
 }
 
+/// A hash of a model's files; empty for a solid, and for files whose worlds aren't kept.
+std::string source_of_files(const Model& model, AssetStore& meshes) {
+    return model.voxels.empty() ? meshes.source_of(model) : meshes.source_of_voxels(model);
+}
+
 void add_model(CacheKey& words, const Model& model, AssetStore& meshes) {
-    words.add_text(meshes.source_of(model)).add(int(model.surface)).add(int(model.set));
+    words.add_text(source_of_files(model, meshes)).add(int(model.surface)).add(int(model.set));
     words.add(int(model.shading.kind)).add(model.shading.crease_angle);
     words.add(int(model.normals)).add(model.thin_edge);
     words.add(model.cuts.size());
@@ -62,7 +67,7 @@ std::string world_source(const Scene& scene, AssetStore& meshes) {
         const Object& object = scene.objects[number];
         if (is_instanced(scene, object) || !is_potentially_visible(scene, object)) continue;
         const Model& model = scene.models[size_t(object.model)];
-        if (!model.voxels.empty()) return {};
+        if (!model.voxels.empty() && source_of_files(model, meshes).empty()) return {};
         words.add(number).add(object.priority).add(shows_inside(scene, object));
         words.add_columns(object.world_from_object);
         // Grids on the world's own lattice depend on their map alone.

@@ -17,12 +17,12 @@ ModelCache cache() {
 }  // namespace
 
 TEST(VoxelWarnings, CallOnlyAWorldWorthKeepingTooLarge) {
-    EXPECT_EQ(cache().max_entry_bytes(), 1u << 20);
-    EXPECT_TRUE(cache().is_too_large((1 << 20) + 1, 10));
-    EXPECT_FALSE(cache().is_too_large(1 << 20, 10));
-    EXPECT_FALSE(cache().is_too_large((1 << 20) + 1, 0.0005));  // it is made as quickly as read
-    EXPECT_FALSE(ModelCache("unused", 8 << 20).is_too_large((1 << 20) + 1, 10));
-    EXPECT_FALSE(ModelCache().with_worlds().is_too_large((1 << 20) + 1, 10));
+    EXPECT_EQ(cache().max_entry_bytes(), 4u << 20);
+    EXPECT_TRUE(cache().is_too_large((4 << 20) + 1, 10));
+    EXPECT_FALSE(cache().is_too_large(4 << 20, 10));
+    EXPECT_FALSE(cache().is_too_large((4 << 20) + 1, 0.0005));  // it is made as quickly as read
+    EXPECT_FALSE(ModelCache("unused", 8 << 20).is_too_large((4 << 20) + 1, 10));
+    EXPECT_FALSE(ModelCache().with_worlds().is_too_large((4 << 20) + 1, 10));
 }
 
 TEST(VoxelWarnings, SayHowLargeACacheAWorldNeeds) {
@@ -34,7 +34,7 @@ TEST(VoxelWarnings, SayHowLargeACacheAWorldNeeds) {
     EXPECT_EQ(warnings[0].kind, WarningKind::world_not_cached);
     EXPECT_EQ(warnings[0].where.text(), "room.json:3:5: world");
     EXPECT_THAT(warnings[0].text, HasSubstr("its voxels take 5.2 MB"));
-    EXPECT_THAT(warnings[0].text, HasSubstr("set VOXELUME_CACHE_MB to 41 or more"));
+    EXPECT_THAT(warnings[0].text, HasSubstr("set VOXELUME_CACHE_MB to 11 or more"));
     add_large_world(world, 5 << 20, 10, cache(), warnings);
     EXPECT_EQ(warnings.size(), 1u);
     add_large_world(world, 1000, 10, cache(), warnings);

@@ -3,6 +3,8 @@
 // nothing else.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "runtime/render/renderer.hpp"
@@ -12,6 +14,7 @@
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/shared_device.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 namespace {
@@ -65,13 +68,19 @@ class WorldCacheFiles : public FileTest {
         return parse_scene(changed, folder / "s.json", {});
     }
 
+    ModelCache cache_of(uint64_t bytes) const {
+        return ModelCache(folder / "models", bytes, 0).with_worlds();
+    }
+
     Outcome show(const Scene& scene, bool from_disk = true) const {
-        const ModelCache cache = ModelCache(folder / "models", 64 << 20, 0).with_worlds();
+        return show(scene, from_disk ? cache_of(64 << 20) : ModelCache());
+    }
+
+    Outcome show(const Scene& scene, const ModelCache& cache) const {
         shared_device().counters().launches.clear();
         RenderReport report;
         const BuiltWorld world =
-            WorldBuilder(shared_device(), false, AssetStore(from_disk ? cache : ModelCache()))
-                .build(scene, report.world);
+            WorldBuilder(shared_device(), false, AssetStore(cache)).build(scene, report.world);
         Outcome outcome;
         outcome.hash =
             oracle::image_hash(Renderer(shared_device(), false).new_image(scene, world, report));
@@ -95,6 +104,22 @@ TEST_F(WorldCacheFiles, AWarmRunShowsTheSameAndPlacesNothing) {
                                    "paint_cubes", "mark_voxels", "write_voxels", "write_united"})
             EXPECT_EQ(warm.launches.count(kernel), 0u) << surface << ": " << kernel;
     }
+}
+
+// One that is seen once would displace other entries for nothing.
+TEST_F(WorldCacheFiles, ALargeWorldIsKeptWhenItIsMadeForTheSecondTime) {
+    const Scene shown = scene("smooth");
+    show(shown);
+    uint64_t largest = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "models"))
+        largest = std::max<uint64_t>(largest, entry.file_size());
+    ASSERT_GT(largest, 10'000u);
+    std::filesystem::remove_all(folder / "models");
+    for (const bool is_kept : {false, false, true, true})
+        EXPECT_EQ(show(shown, cache_of(8 * largest)).world.is_from_cache, is_kept);
+    std::filesystem::remove_all(folder / "models");
+    for (int run = 0; run < 4; ++run)
+        EXPECT_FALSE(show(shown, cache_of(largest)).world.is_from_cache);
 }
 
 TEST_F(WorldCacheFiles, WhatTheVoxelsAreMadeOfIsAnotherWorld) {
@@ -123,6 +148,36 @@ TEST_F(WorldCacheFiles, WhatTheVoxelsAreMadeOfIsAnotherWorld) {
     }
     put_bytes(folder / "m.obj", text_with(kCachedMesh, "0.7", "0.6"));
     EXPECT_FALSE(show(scene("smooth")).world.is_from_cache) << "other bytes of the mesh";
+}
+
+TEST_F(WorldCacheFiles, FilesOfVoxelsAreKnownByTheirContent) {
+    const auto put_cells = [&](const std::string& cells, const char* shape = "2, 2, 2") {
+        put_bytes(folder / "m.npy", npy_bytes("|u1", shape, cells));
+    };
+    const Change of_voxels = {R"("mesh": "m.obj", "voxel_size": 0.04, "surface": "smooth")",
+                              R"("voxels": "m.npy", "unit": "ft")"};
+    const std::string ones("\1\0\2\1\0\1\1\3", 8), others("\1\0\2\1\2\1\1\3", 8);
+    put_cells(ones);
+    const Scene shown = scene("smooth", of_voxels);
+    const uint64_t without = show(shown, false).hash;
+    EXPECT_FALSE(show(shown).world.is_from_cache);
+    const Outcome warm = show(shown);
+    EXPECT_TRUE(warm.world.is_from_cache);
+    EXPECT_EQ(warm.hash, without);
+    EXPECT_EQ(warm.launches.count("paint_cubes") + warm.launches.count("write_voxels"), 0u);
+    put_cells(others);
+    EXPECT_FALSE(show(shown).world.is_from_cache) << "other cells";
+    EXPECT_EQ(show(shown).hash, show(shown, false).hash);
+    const Scene larger = scene("smooth", {of_voxels.from, R"("voxels": "m.npy", "unit": "in")"});
+    EXPECT_FALSE(show(larger).world.is_from_cache) << "larger cells";
+    for (const char* color : {"\x10\x20\x30\xff", "\x10\x20\x31\xff", "\x10\x20\x31\x80"}) {
+        put_cells(color, "1, 1, 1, 4");
+        EXPECT_FALSE(show(shown).world.is_from_cache) << "another colour or opacity";
+        EXPECT_TRUE(show(shown).world.is_from_cache);
+        EXPECT_EQ(show(shown).hash, show(shown, false).hash);
+    }
+    std::filesystem::remove(folder / "m.npy");
+    EXPECT_THROW(show(shown), Error);
 }
 
 TEST_F(WorldCacheFiles, LightsMaterialsAndObserversKeepIt) {

@@ -14,6 +14,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <memory>
+#include <new>
 #include <system_error>
 
 #include "runtime/base/files/private_folder.hpp"
@@ -158,12 +160,16 @@ std::string refusal_of_base(const fs::path& base) {
 }
 
 std::string cache_key(std::span<const std::string_view> parts) {
-    std::string text;
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                         &XXH3_freeState);
+    if (!state) throw std::bad_alloc();
+    XXH3_128bits_reset(state.get());
     for (const std::string_view part : parts) {
-        text += fmt::format("{}:", part.size());
-        text += part;
+        const std::string size = fmt::format("{}:", part.size());
+        XXH3_128bits_update(state.get(), size.data(), size.size());
+        XXH3_128bits_update(state.get(), part.data(), part.size());
     }
-    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+    const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 

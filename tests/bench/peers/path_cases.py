@@ -152,8 +152,8 @@ def cubes_case(np, folder):
     return Case(place, ours, {"m": mesh_of_cubes(np, cells)}, [("m", [0, 0, 0])])
 
 
-def city_case(np, folder):
-    """A thousand houses of eight kinds, which keep voxels of their own here."""
+def city_case(np, folder, placement="instance"):
+    """A thousand houses of eight kinds, as instances or, by `auto`, as voxels of the world here."""
     random = np.random.default_rng(11)
     models, meshes, objects, placed = {}, {}, [], []
     for number in range(BUILDINGS):
@@ -165,14 +165,15 @@ def city_case(np, folder):
     for x in range(0, side, STREET):
         for z in range(0, side, STREET):
             name, at = f"house{random.integers(BUILDINGS)}", [x + 2, 0, z + 2]
-            objects.append({"model": name, "material": "own", "placement": "instance",
+            objects.append({"model": name, "material": "own", "placement": placement,
                             "position": at})
             placed.append((name, at))
     place = Place(np, [0, -4, 0], [side, 60, side])
     floor = ([side / 2, -2, side / 2], [side, 4, side])
     models["floor"] = {"shape": "box", "size": floor[1], "surface": "exact"}
     objects.append({"model": "floor", "material": "matt", "position": floor[0]})
-    return Case(place, our_scene(place, models, objects, 4), meshes, placed, floor)
+    voxel = 4 if placement == "instance" else 1
+    return Case(place, our_scene(place, models, objects, voxel), meshes, placed, floor)
 
 
 def mesh_case(np, folder, file):

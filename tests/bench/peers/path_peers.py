@@ -9,9 +9,11 @@ Renders the scenes of path_cases.py by Mitsuba's path integrator (llvm_ad_rgb, a
 peers.json, and has `voxelume bench` measure its own pictures and compare: the mean squared relative
 error against two pictures of Mitsuba's, of REFERENCE samples each, and the seconds of the picture
 without loading, of several runs the fastest. The cubes are quads with colours at their corners
-there. FOLDER keeps all files. Where Mitsuba isn't installed (pip install mitsuba;
-DRJIT_LIBLLVM_PATH names an LLVM of 16 or later) it says so and ends with 77; Cycles (pip install
-bpy) is left out where it isn't. With LLVM a picture of the city takes 20 seconds.
+there. The city is rendered twice here: of instances, as in the others, and `placed`, with its
+houses in the world's voxels, where `auto` puts them. FOLDER keeps all files. Where Mitsuba isn't
+installed (pip install mitsuba; DRJIT_LIBLLVM_PATH names an LLVM of 16 or later) it says so and ends
+with 77; Cycles (pip install bpy) is left out where it isn't. With LLVM a picture of the city takes
+20 seconds.
 """
 import json
 import pathlib
@@ -153,8 +155,14 @@ def main():
         for name, case in cases.items():
             rows, measured["references"][name] = measure(folder, name, case)
             measured["rows"] += rows
+            if name == "city":  # whose picture is the same wherever its voxels are
+                (folder / "placed.json").write_text(
+                    json.dumps(city_case(np, folder, "auto").ours))
+                measured["rows"] += [{**row, "scene": "placed"} for row in rows]
+                measured["references"]["placed"] = measured["references"]["city"]
             (folder / "peers.json").write_text(json.dumps({"global": measured}, indent=1))
-        scenes = [word for name in cases for word in ("--scene", str(folder / f"{name}.json"))]
+        scenes = [word for name in measured["references"]
+                  for word in ("--scene", str(folder / f"{name}.json"))]
         subprocess.run([sys.argv[1], "bench", *scenes, "--samples",
                         ",".join(str(s) for s in SAMPLES), "--repeat", str(RUNS), "--peers",
                         str(folder / "peers.json"), "-o", str(folder / "report.html"), "--json",
