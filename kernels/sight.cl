@@ -17,13 +17,42 @@ static inline lane_float along(float ax, float ay, float az, Vector v) {
 }
 
 /// What all packets of sight rays have in common. `offsets` holds the x and y in [0, 1) of each
-/// sample within its pixel.
+/// sample within its pixel; with VXL_SCATTERED_SIGHT, the positions that filter_positions gives.
 typedef struct {
     Camera camera;
     PyramidShape shape;
     global const float* offsets;
     uint stride;
 } SightCast;
+
+/// The position along an axis before which a pixel's filter has this share of its weight.
+static inline lane_float position_of_share(global const float* restrict positions,
+                                           lane_float share) {
+    const lane_float at = share * (float)VXL_FILTER_STEPS;
+    const lane_uint step = min(LANES_UINT(at), (lane_uint)(VXL_FILTER_STEPS - 1u));
+    const lane_float from = LANES_GATHER_FLOAT(positions, step);
+    const lane_float to = LANES_GATHER_FLOAT(positions, step + 1u);
+    return fma(at - LANES_FLOAT(step), to - from, from);
+}
+
+/// The positions of a sample within pixels of the whole frame, from their upper left corners. With
+/// VXL_SCATTERED_SIGHT, the first sample lies in the middle and each pixel has others of its own.
+static inline SquarePoint sample_positions(const SightCast* cast, lane_int column, lane_int row,
+                                           uint sample) {
+    const uint number = (uint)cast->camera.first_sample + sample;
+    SquarePoint p = {(lane_float)0.5f, (lane_float)0.5f};
+    if (!VXL_SCATTERED_SIGHT) {
+        p.x = (lane_float)cast->offsets[2u * sample];
+        p.y = (lane_float)cast->offsets[2u * sample + 1u];
+    } else if (number != 0u) {
+        const SampledPixels pixels =
+            sampled_pixels(LANES_AS_UINT(column) | (LANES_AS_UINT(row) << 16), (lane_uint)number);
+        const SquarePoint shares = pixel_point(&pixels, (lane_uint)VXL_DECISION_SIGHT);
+        p.x = position_of_share(cast->offsets, shares.x);
+        p.y = position_of_share(cast->offsets, shares.y);
+    }
+    return p;
+}
 
 /// Writes the rays of one packet: one sample of the pixels in these columns and rows, from ray
 /// `first` on. Pixels outside the image get no ray.
@@ -34,18 +63,18 @@ static inline void cast_packet(const SightCast* cast, lane_int column, lane_int 
     const uint stride = cast->stride;
     lane_int seen = LANE_MASK(column < camera.width) & LANE_MASK(row < camera.height);
 
-    const lane_float px = LANES_FLOAT(column + camera.first_column) + cast->offsets[2u * sample];
-    const lane_float py = LANES_FLOAT(row + camera.first_row) + cast->offsets[2u * sample + 1u];
+    const lane_int frame_column = column + camera.first_column, frame_row = row + camera.first_row;
+    const SquarePoint at = sample_positions(cast, frame_column, frame_row, sample);
+    const lane_float px = LANES_FLOAT(frame_column) + at.x;
+    const lane_float py = LANES_FLOAT(frame_row) + at.y;
     const lane_float u = exact_divide(2.0f * px, (lane_float)(float)camera.frame_width) - 1.0f;
     const lane_float v = exact_divide(2.0f * py, (lane_float)(float)camera.frame_height) - 1.0f;
     SightRay ray = sight_ray(&camera, u, v, &seen);
-    if (VXL_LENS) {
-        const lane_uint frame_column = LANES_AS_UINT(column + camera.first_column);
-        const lane_uint frame_row = LANES_AS_UINT(row + camera.first_row);
-        ray = through_lens(
-            &camera, ray,
-            lens_point(&camera, frame_column, frame_row, (uint)camera.first_sample + sample));
-    }
+    if (VXL_LENS)
+        ray =
+            through_lens(&camera, ray,
+                         lens_point(&camera, LANES_AS_UINT(frame_column), LANES_AS_UINT(frame_row),
+                                    (uint)camera.first_sample + sample));
 
     lane_float dx = along(camera.axis_x.x, camera.axis_y.x, camera.axis_z.x, ray.direction);
     lane_float dy = along(camera.axis_x.y, camera.axis_y.y, camera.axis_z.y, ray.direction);

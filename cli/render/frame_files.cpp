@@ -225,6 +225,14 @@ void check_options(const RenderCommand& options) {
     progress_style(options.progress);
     if (!options.shard.empty()) parse_shard(options.shard);
     overwrite_of(options);
+    if (options.quilt.cone && options.quilt.views.empty())
+        fail_usage("render: --cone is of a quilt: add --quilt COLUMNSxROWS, or leave it out");
+    if (options.quilt.focus > 0 && !options.quilt.is_asked_for())
+        fail_usage(
+            "render: --focus is of quilts and stereo pairs: add --quilt or --stereo, or "
+            "leave it out; a lens is focused by the observer's \"focus\"");
+    if (!options.earlier.empty() && options.outputs.empty())
+        fail_usage("render: --continue adds samples to an image: name one by -o");
     if (!options.earlier.empty() && !(options.shard.empty() && !options.quilt.is_asked_for()))
         fail_usage("render: --continue adds samples to whole images of one view: leave out {}",
                    !options.shard.empty()        ? "--shard"

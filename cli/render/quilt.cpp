@@ -29,7 +29,7 @@ const char* option_of(const QuiltChoices& choices) {
 
 Quilt quilt_of(const QuiltChoices& choices) {
     Quilt quilt;
-    quilt.cone = choices.cone;
+    quilt.cone = choices.cone.value_or(quilt.cone);
     quilt.focus = choices.focus;
     if (choices.stereo > 0) {
         quilt.columns = 2;
@@ -162,7 +162,8 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     refuse_others(command);
     const Quilt quilt = quilt_of(command.quilt);
     const Size size = scene.size();
-    const std::string suffix = command.quilt.stereo > 0 ? "" : quilt_suffix(quilt, size);
+    const std::string suffix =
+        command.quilt.stereo > 0 ? "" : quilt_suffix(quilt, size, scene.pixel_aspect());
     const auto start = std::chrono::steady_clock::now();
     const ProgressStyle style = progress_style(command.progress);
     RenderProgress progress(
@@ -202,6 +203,7 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     }
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     progress.clear();
+    if (!command.quiet) progress.tell_of_compiling();
     if (!command.quiet) tell_of(finished, job.frames.size());
     if (!command.quiet && finished.frames < job.frames.size())
         tell("{} of {} views of {}x{} in {:.2f} s: {}\n",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,10 @@ struct RenderCommand;
 
 /// The options of quilts and stereo pairs.
 struct QuiltChoices {
-    std::string views;  ///< COLUMNSxROWS of a quilt; empty: no quilt
-    double cone = 40;   ///< degrees
-    double focus = 0;   ///< metres; 0: at the point that the observer looks at
-    double stereo = 0;  ///< metres between the eyes of a stereo pair; 0: no pair
+    std::string views;           ///< COLUMNSxROWS of a quilt; empty: no quilt
+    std::optional<double> cone;  ///< degrees
+    double focus = 0;            ///< metres; 0: at the point that the observer looks at
+    double stereo = 0;           ///< metres between the eyes of a stereo pair; 0: no pair
 
     bool is_asked_for() const { return !views.empty() || stereo > 0; }
 };

@@ -81,7 +81,10 @@ Statistics render_files(const Scene& scene, const std::vector<Device>& devices, 
         if (stream.is_wanted()) stream.write(*frame.image, job.image_files);
         progress.written(*files++);
     };
-    return render_frames(scene, devices, job, render);
+    Statistics statistics = render_frames(scene, devices, job, render);
+    progress.clear();
+    if (!command.quiet) progress.tell_of_compiling();
+    return statistics;
 }
 
 }  // namespace

@@ -107,6 +107,7 @@ void RenderProgress::compiling(int kernel, int known) {
     const std::lock_guard lock(mutex_);
     const double now = seconds();
     left_.compiling(now);
+    compiled_ = kernel;
     const double compiled = left_.compile_seconds(now);
     const std::string text =
         fmt::format("compiling kernels: {} of {}, {:.0f} s so far", kernel, known, compiled);
@@ -137,6 +138,13 @@ void RenderProgress::written(const FrameFiles& files) {
                             {"file", path.string()}});
             else
                 tell("frame {}: {}\n", files.frame, path.string());
+}
+
+void RenderProgress::tell_of_compiling() {
+    const std::lock_guard lock(mutex_);
+    if (style_ == ProgressStyle::json || left_.compile_seconds() < 1) return;
+    tell("compiled {} kernels in {:.1f} s; they are kept for other runs\n", compiled_,
+         left_.compile_seconds());
 }
 
 void RenderProgress::clear() {

@@ -34,6 +34,9 @@ class RenderProgress {
     void written(const FrameFiles& files);
     /// Clears the bar to make room for a line of text.
     void clear();
+    /// Says how long kernels were compiled, if that took a second or more: logs have no bar that
+    /// shows it meanwhile.
+    void tell_of_compiling();
 
   private:
     double seconds() const;
@@ -48,6 +51,7 @@ class RenderProgress {
     std::mutex mutex_;
     std::unique_ptr<Progress> bar_;  ///< only in styles with a bar
     TimeLeft left_;
+    int compiled_ = 0;    ///< kernels
     uint64_t shown_ = 0;  ///< percentage of the frames
     double told_ = -1e9;  ///< time when the last line was printed, seconds
 };

@@ -61,6 +61,7 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 // of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
 #define VXL_DECISION_DIRECTION 1u           // of scattered light
+#define VXL_DECISION_SIGHT 0xFFF3u          // where in the pixel a sight ray leads
 #define VXL_DECISION_NEAR_AREA 0xFFF4u      // as NEAR_CHOICE, of many lights with an area
 #define VXL_DECISION_AREA_CHOICE 0xFFF5u    // as CHOICE, of many lights with an area
 #define VXL_DECISION_AREA_POINT 0xFFF6u     // where on that light

@@ -35,6 +35,9 @@ VXL_SIZE_IS(PyramidShape, 64);
 #define VXL_SHAPE_BALL 2
 #define VXL_SHAPE_BOX 3
 
+// The steps of filter_positions in runtime/stages/trace/sight.hpp.
+#define VXL_FILTER_STEPS 1024u
+
 // E: where sight rays start, and the range of directions that they cover.
 typedef struct Camera {
     float4 origin;      // E, or the point `lead` before it; w unused

@@ -20,6 +20,7 @@ bool is_sampled_by_noise(const RenderSettings& render) {
 
 Features volume_features(const Scene& scene, const Pyramid& world) {
     Features features = features_of(scene, world);
+    features.scattered_sight = false;  // rays go through the middles of pixels
     features.own_light = features.global && features.transmission;
     return features;
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -88,6 +90,18 @@ void check_views(const std::vector<Image>& views, const Quilt& quilt) {
                               count);
 }
 
+/// The root mean square of the noise of views, as their attributes tell it.
+std::string noise_of(const std::vector<Image>& views) {
+    double squares = 0;
+    for (const Image& view : views) {
+        const api::Attributes& attributes = view.implementation().attributes;
+        const auto noise = attributes.find("noise");
+        if (noise != attributes.end())
+            squares += std::pow(std::strtod(noise->second.c_str(), nullptr), 2);
+    }
+    return fmt::format("{:.5f}", std::sqrt(squares / double(views.size())));
+}
+
 /// The options with the progress of one view reported as a part of that of all views.
 RenderOptions options_of_view(const RenderOptions& options, int number, int views) {
     RenderOptions of_view = options;
@@ -101,8 +115,9 @@ RenderOptions options_of_view(const RenderOptions& options, int number, int view
 
 }  // namespace
 
-std::string quilt_suffix(const Quilt& quilt, Size view) {
-    return fmt::format("_qs{}x{}a{:.4g}", quilt.columns, quilt.rows, double(view[0]) / view[1]);
+std::string quilt_suffix(const Quilt& quilt, Size view, double pixel_aspect) {
+    return fmt::format("_qs{}x{}a{:.4g}", quilt.columns, quilt.rows,
+                       pixel_aspect * view[0] / view[1]);
 }
 
 std::vector<std::string> view_hashes(const Scene& scene, const Quilt& quilt, int frame) {
@@ -154,7 +169,7 @@ Image join_views(const std::vector<Image>& views, const Quilt& quilt) {
         }
         api::Attributes attributes = views.front().implementation().attributes;
         attributes[api::kFrameHash] = quilt_hash(hashes, quilt);
-        attributes.erase("noise");  // the noise of the first view alone
+        if (attributes.contains("noise")) attributes["noise"] = noise_of(views);
         return api::handle_of(
             std::make_shared<const voxelume::Image>(quilt_of(images, quilt.columns)),
             std::move(attributes));

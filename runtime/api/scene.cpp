@@ -193,6 +193,10 @@ Size Scene::size() const {
     return api::array_of(api::inside(*this).render.size);
 }
 
+double Scene::pixel_aspect() const {
+    return api::inside(*this).render.pixel_aspect;
+}
+
 bool Scene::moves() const {
     return voxelume::moves(api::inside(*this));
 }

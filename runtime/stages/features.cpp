@@ -60,6 +60,7 @@ Defines defines_of_rays(const Features& f) {
             {"VXL_WEAK_FACETS", f.weak_facets},
             {"VXL_AREA_SHARES", f.area_shares},
             {"VXL_DIRECT_ALONE", f.direct_alone},
+            {"VXL_SCATTERED_SIGHT", f.scattered_sight},
             {"VXL_LENS", f.lens},
             {"VXL_BLADES", f.blades},
             {"VXL_EMITTERS", f.emitters},

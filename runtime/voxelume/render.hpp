@@ -75,8 +75,9 @@ struct Quilt {
 };
 
 /// The end of the names of a quilt's files before ".png", by which players recognize it: its
-/// columns, its rows and the proportions of its views, as in "_qs8x6a0.75".
-std::string quilt_suffix(const Quilt& quilt, Size view);
+/// columns, its rows and the proportions of its views, as in "_qs8x6a0.75". Pixels are
+/// `pixel_aspect` times as wide as high.
+std::string quilt_suffix(const Quilt& quilt, Size view, double pixel_aspect = 1);
 
 /// Renders a frame's views and lays them side by side: the leftmost at the bottom left, the
 /// rightmost at the top right. The scene's image is the size of one. The observer needs a display

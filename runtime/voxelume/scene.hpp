@@ -122,8 +122,9 @@ class Scene {
     const std::filesystem::path& file() const;
     /// Width and height of the scene's image, pixels.
     Size size() const;
-    bool moves() const;  ///< true if any frame may differ from another
-    int frames() const;  ///< number of frames of the animation; 1 without one
+    double pixel_aspect() const;  ///< width of the image's pixels over their height
+    bool moves() const;           ///< true if any frame may differ from another
+    int frames() const;           ///< number of frames of the animation; 1 without one
     /// Frames per second of the scene's animation.
     double frames_per_second() const;
     /// Names of the objects, in the order of their numbers in images, from 1 on.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Quilts on the command line.
+#include <cmath>
+
 #include "runtime/io/image/exr.hpp"
 #include "tests/cli/scene_program.hpp"
 
@@ -95,8 +97,13 @@ TEST_F(CliQuiltTest, ViewsTakeAsManySamplesAsTheyNeed) {
     EXPECT_LT(std::ranges::min(samples), std::ranges::max(samples));
     ASSERT_EQ(run("render scene.json -o {eye}.exr --stereo 0.1 " + options).exit_code, 0);
     EXPECT_EQ(std::ranges::max(read_exr(folder / "left.exr").planes.at("samples")), 64);
-    EXPECT_TRUE(read_exr(folder / "left.exr").attributes.contains("noise"));
-    EXPECT_FALSE(quilt.attributes.contains("noise")) << "that of one view";
+    const auto noise_of = [&](const char* file) {
+        return std::stod(read_exr(folder / file).attributes.at("noise"));
+    };
+    EXPECT_EQ(noise_of("q_qs1x1a1.667.exr"), noise_of("alone.exr"));
+    ASSERT_EQ(run("render scene.json -o both.exr --stereo 0.1 " + options).exit_code, 0);
+    EXPECT_NEAR(noise_of("both.exr"),
+                std::hypot(noise_of("left.exr"), noise_of("right.exr")) / std::sqrt(2.0), 1e-5);
     ASSERT_EQ(run("render scene.json -o t.exr --quilt 2x1 --light global --time 1 --samples 32")
                   .exit_code,
               0);
@@ -142,6 +149,12 @@ TEST_F(CliQuiltTest, FinishedEyesStay) {
     EXPECT_THAT(run(line + "--resume").err, HasSubstr("1 of 1 frames are there already"));
 }
 
+TEST_F(CliQuiltTest, ItsNameHasTheProportionsOfItsViews) {
+    ASSERT_EQ(run("render scene.json -o q.png --quilt 2x1 --set render.pixel_aspect=2").exit_code,
+              0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "q_qs2x1a3.333.png"));
+}
+
 TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
     for (const char* option :
          {"--crop 0,0,4,4", "--shard 1/2", "--stats-json s.json", "--volume v.vdb"})
@@ -159,6 +172,13 @@ TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
                 HasSubstr("can't be had of stereo pairs"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o a{eye}.png -o aleft.png --stereo 0.06"),
                 HasSubstr("aleft.png"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o a.png --cone 20"), HasSubstr("--quilt"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o a.png --stereo 0.06 --cone 20"),
+                HasSubstr("--cone"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o a.png --focus 2"),
+                HasSubstr("add --quilt or --stereo"));
+    EXPECT_THAT(expect_failure(2, "render scene.json --volume v.vdb --continue a.exr"),
+                HasSubstr("name one by -o"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o {eye}.png"),
                 HasSubstr("no placeholder \"eye\""));
 }

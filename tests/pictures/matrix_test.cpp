@@ -143,9 +143,9 @@ int result_of(pid_t child) {
     return waitpid(child, &status, 0) == child && WIFEXITED(status) ? WEXITSTATUS(status) : 255;
 }
 
-/// Scenes of cubes, mirrors and glass of triangles, smooth objects and instances. Their kernels
-/// compile the fastest.
-constexpr std::array kScenesInTurn = {"cubes", "prism", "turntable", "procession"};
+/// Scenes of cubes, mirrors and glass of triangles, smooth objects, instances, and paths. Their
+/// kernels compile the fastest.
+constexpr std::array kScenesInTurn = {"cubes", "prism", "turntable", "procession", "stage"};
 
 TEST(Matrix, EveryPairOfSettingsGivesTheGoldenBits) {
     const std::vector<Combination> rows = covering_array();

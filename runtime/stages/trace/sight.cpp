@@ -95,6 +95,18 @@ std::vector<float> sample_offsets(int samples, int first, const ReconstructionFi
     return offsets;
 }
 
+std::vector<float> filter_positions(const ReconstructionFilter& filter) {
+    std::vector<float> positions(VXL_FILTER_STEPS + 1);
+    // The filter is even, and the middle of the pixel is the middle of its weight.
+    for (size_t i = 0; i <= VXL_FILTER_STEPS / 2; ++i) {
+        const double share = double(i) / VXL_FILTER_STEPS;
+        const double offset = filter.is_pixel() ? share - 0.5 : filter_offset(filter, share);
+        positions[i] = float(0.5 + offset);
+        positions[VXL_FILTER_STEPS - i] = float(0.5 - offset);
+    }
+    return positions;
+}
+
 uint32_t tile_count(int width, int height) {
     return uint32_t((width + 3) / 4) * uint32_t((height + 3) / 4);
 }
@@ -103,7 +115,10 @@ SightStage::SightStage(const Device& device, const Features& features, const Cam
                        const ReconstructionFilter& filter)
     : camera_(camera),
       offsets_(device, "sample offsets",
-               std::span<const float>(sample_offsets(camera.samples, camera.first_sample, filter))),
+               std::span<const float>(
+                   features.scattered_sight
+                       ? filter_positions(filter)
+                       : sample_offsets(camera.samples, camera.first_sample, filter))),
       program_(device, "sight.cl", features.defines(device)),
       cast_(program_.kernel("cast_sight")) {}
 

@@ -28,6 +28,10 @@ double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame&
 std::vector<float> sample_offsets(int samples, int first = 0,
                                   const ReconstructionFilter& filter = {});
 
+/// For features with `scattered_sight`: VXL_FILTER_STEPS + 1 positions from a pixel's left side,
+/// before which its filter has even shares of its weight, from none to all.
+std::vector<float> filter_positions(const ReconstructionFilter& filter);
+
 /// The number of tiles of 4 x 4 pixels that cover an image.
 uint32_t tile_count(int width, int height);
 

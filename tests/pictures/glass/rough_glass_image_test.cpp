@@ -24,7 +24,7 @@ INSTANTIATE_TEST_SUITE_P(GlobalLight, RoughGlassBalls, testing::Values("cubes", 
 TEST_P(RoughGlassBalls, AreInvisibleUnderAWhiteSky) {
     const bool is_cubes = std::string(GetParam()) == "cubes";
     for (const double roughness : {0.1, 0.4, 0.9}) {
-        Json scene = open_furnace(64);
+        Json scene = open_furnace(is_exhaustive() ? 4096 : 64);
         scene["materials"]["frosted"] = rough_glass(roughness);
         scene["materials"]["half"] = {
             {"base_color", {1, 1, 1}}, {"transmission", 0.5}, {"metallic", 0.3}};

@@ -76,6 +76,55 @@ TEST(Noise, IsWhatWasAskedForWithFewerSamplesWhereLightIsSmooth) {
     EXPECT_GT(rays[1], 2 * rays[0]);
 }
 
+/// A shining block before black, all of whose edges are parallel to the picture's.
+Scene block_scene(LightMode light, double error, int samples) {
+    Scene scene = parse_scene(R"({"voxelume": 1,
+"world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},
+"materials": {"lamp": {"color": [0, 0, 0], "emission": [3, 3, 3]}},
+"models": {"block": {"shape": "box", "size": [1.2, 0.8, 0.6], "surface": "exact"}},
+"objects": [{"model": "block", "material": "lamp"}], "lights": [],
+"observer": {"position": [0, 0, -3], "look_at": [0, 0, 0],
+             "display": {"shape": "box", "size": [1.957, 1.957, 5]}},
+"render": {"size": [32, 32]}})",
+                              "block", {});
+    scene.render.light = light;
+    scene.render.noise.error = error;
+    scene.render.samples = samples;
+    return scene;
+}
+
+// Samples at the same places in all pixels would all miss the same part of such edges, and agree
+// about it.
+TEST(Noise, IsThatOfStraightEdges) {
+    for (const LightMode light : {LightMode::global, LightMode::local}) {
+        RenderReport report;
+        const Image image = render(test_device(), block_scene(light, 0.02, 1024), report);
+        double sum = 0, largest = 0, covered = 0;
+        for (int tile = 0; tile < 64; ++tile) {
+            double seen = 0, squares = 0, whole = 0;
+            for (int i = 0; i < 16; ++i) {
+                const int x = tile % 8 * 4 + i % 4, y = tile / 8 * 4 + i / 4;
+                // The part of the pixel that lies within 0.6 and 0.4 metres of the middle.
+                const double pixel = 1.957 / 32;
+                const auto part = [&](int at, double half) {
+                    const double from = std::abs((at - 15.5) * pixel) - pixel / 2;
+                    return std::clamp((half - from) / pixel, 0.0, 1.0);
+                };
+                const double exact = 3 * part(x, 0.6) * part(y, 0.4);
+                const double shown = double(image.planes.at("G")[size_t(y * 32 + x)]);
+                seen += shown, whole += exact, squares += std::pow(shown - exact, 2);
+            }
+            sum += seen, covered += whole;
+            if (whole > 0.5) largest = std::max(largest, 4 * std::sqrt(squares) / whole);
+        }
+        fmt::print("said {:.4f}, largest of a tile {:.4f}, sum {:+.4f}\n", report.noise.mean(),
+                   largest, sum / covered - 1);
+        EXPECT_LE(report.noise.mean(), 0.02);
+        EXPECT_LT(largest, 3 * 0.02);
+        EXPECT_LT(std::abs(sum / covered - 1), 0.002);
+    }
+}
+
 TEST(Noise, TakesNoMoreSamplesThanTheMaximum) {
     const NoisyImage r = rendered_to(1e-6, 100);
     EXPECT_LE(r.report.sight_rays, 64u * 1024);  // doubled from 16 on, but for the sky
