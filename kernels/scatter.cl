@@ -74,9 +74,10 @@ kernel void begin_paths(PyramidShape shape, global const SolidShape* restrict so
     LANES_STORE(medium_inside(&in, around.ranks), batch.inside, first);
 }
 
-/// Adds a layer's light to its nodes, whose sums the first layer starts. Sends on the rays whose
-/// surfaces don't cover what lies behind completely. Writes to `node_weights` the weight that an
-/// entry's reflected and refracted light has in its node.
+/// Adds a layer's light to its nodes, whose sums the first layer starts, unless VXL_OWN_LIGHT keeps
+/// layers apart. Sends on the rays whose surfaces don't cover what lies behind completely. In local
+/// light, writes to `node_weights` the weight that an entry's reflected and refracted light has in
+/// its node.
 kernel void pass_layer(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                        global const uint* restrict colors, float min_weight, uint first_layer,
                        VXL_BATCH_PARAMETERS, uint count, global float* restrict node_weights,

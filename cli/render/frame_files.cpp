@@ -231,8 +231,6 @@ void check_options(const RenderCommand& options) {
         fail_usage(
             "render: --focus is of quilts and stereo pairs: add --quilt or --stereo, or "
             "leave it out; a lens is focused by the observer's \"focus\"");
-    if (!options.earlier.empty() && options.outputs.empty())
-        fail_usage("render: --continue adds samples to an image: name one by -o");
     if (!options.earlier.empty() && !(options.shard.empty() && !options.quilt.is_asked_for()))
         fail_usage("render: --continue adds samples to whole images of one view: leave out {}",
                    !options.shard.empty()        ? "--shard"
@@ -240,6 +238,8 @@ void check_options(const RenderCommand& options) {
                                                  : "--quilt");
     if (!options.earlier.empty() && options.plan_only)
         fail_usage("render: --dry-run tells of whole images: leave out --continue");
+    if (!options.earlier.empty() && options.outputs.empty())
+        fail_usage("render: --continue adds samples to an image: name one by -o");
     check_stream(options);
     for (const std::string& pattern : options.outputs)
         if (!is_stream(pattern))

@@ -142,8 +142,10 @@ void RenderProgress::written(const FrameFiles& files) {
 
 void RenderProgress::tell_of_compiling() {
     const std::lock_guard lock(mutex_);
-    if (style_ == ProgressStyle::json || left_.compile_seconds() < 1) return;
-    tell("compiled {} kernels in {:.1f} s; they are kept for other runs\n", compiled_,
+    const bool is_text = style_ != ProgressStyle::json && style_ != ProgressStyle::none;
+    if (!is_text || left_.compile_seconds() < 1) return;
+    tell("compiled {} in {:.1f} s, for other runs, too\n",
+         compiled_ == 1 ? "a kernel" : fmt::format("{} kernels", compiled_),
          left_.compile_seconds());
 }
 

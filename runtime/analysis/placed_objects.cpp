@@ -29,15 +29,18 @@ PlacedObject placed_object(const Scene& scene, uint32_t number, const Model& mod
     placed.world_from_object = lattice.world_from_frame;
     placed.priority = object.priority;
     placed.set = has_own_voxels ? meshes.voxels(model).set : model.set;
-    placed.keeps_inside =
-        shows_inside(scene, object) ||
-        (has_own_voxels && shows_voxels(model.surface) && transmits(scene, object));
+    placed.keeps_inside = keeps_inside(scene, object, model);
     for (const int material : materials_of_groups(object, meshes.groups_of(model)))
         placed.material_of_group.push_back(uint32_t(material));
     return placed;
 }
 
 }  // namespace
+
+bool keeps_inside(const Scene& scene, const Object& object, const Model& model) {
+    return shows_inside(scene, object) ||
+           (!model.voxels.empty() && shows_voxels(model.surface) && transmits(scene, object));
+}
 
 std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
                                          std::span<const VoxelBox> boxes,

@@ -29,6 +29,9 @@ std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
                                          const PlacedGridSource& grid_of,
                                          std::vector<SharedGrid>& grids);
 
+/// True if the world gets voxels inside of an object's surface, too: rays may come there.
+bool keeps_inside(const Scene& scene, const Object& object, const Model& model);
+
 /// A scene's instances with the grids of their models.
 struct ListedInstances {
     std::vector<SharedGrid> grids;  ///< the grid of each model, numbered as in `list`

@@ -269,10 +269,8 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
     add_light(scene, world, features);
     if (!needs_radiance(scene.render, features))
         features = without_light(voxels, scene, world, features);
-    // Whichever channels an image has, its samples see the same.
-    features.scattered_sight =
-        (scene.render.light == LightMode::global || scene.render.noise.is_given()) &&
-        scene.render.first_sample + all_samples(scene.render) > 1;
+    features.scattered_sight = has_scattered_samples(scene.render) &&
+                               scene.render.first_sample + all_samples(scene.render) > 1;
     features.lens = scene.observer.aperture > 0 &&
                     shape_row(scene.observer.display).projection == SightProjection::perspective;
     features.blades = features.lens && scene.observer.blades > 0;

@@ -90,16 +90,18 @@ void check_views(const std::vector<Image>& views, const Quilt& quilt) {
                               count);
 }
 
-/// The root mean square of the noise of views, as their attributes tell it.
+/// The root mean square of the noise of views, as their attributes tell it; empty if none has any.
 std::string noise_of(const std::vector<Image>& views) {
     double squares = 0;
+    int count = 0;
     for (const Image& view : views) {
         const api::Attributes& attributes = view.implementation().attributes;
         const auto noise = attributes.find("noise");
-        if (noise != attributes.end())
-            squares += std::pow(std::strtod(noise->second.c_str(), nullptr), 2);
+        if (noise == attributes.end()) continue;
+        squares += std::pow(std::strtod(noise->second.c_str(), nullptr), 2);
+        ++count;
     }
-    return fmt::format("{:.5f}", std::sqrt(squares / double(views.size())));
+    return count == 0 ? "" : fmt::format("{:.5f}", std::sqrt(squares / count));
 }
 
 /// The options with the progress of one view reported as a part of that of all views.
@@ -169,7 +171,8 @@ Image join_views(const std::vector<Image>& views, const Quilt& quilt) {
         }
         api::Attributes attributes = views.front().implementation().attributes;
         attributes[api::kFrameHash] = quilt_hash(hashes, quilt);
-        if (attributes.contains("noise")) attributes["noise"] = noise_of(views);
+        attributes.erase("noise");  // the noise of the first view alone
+        if (const std::string noise = noise_of(views); !noise.empty()) attributes["noise"] = noise;
         return api::handle_of(
             std::make_shared<const voxelume::Image>(quilt_of(images, quilt.columns)),
             std::move(attributes));

@@ -72,7 +72,7 @@ class AssetStore {
 
     /// A hash of the voxels of a model that has a file of them, or of some in memory. Empty for
     /// voxels with triangles, and where nothing is kept on disk. Throws Error::input as voxels()
-    /// does.
+    /// does. Voxels that are read again after they were forgotten must be the same.
     const std::string& source_of_voxels(const Model& model);
 
     /// Retains the loaded contents of a model's files past the next call of `forget_unused`.

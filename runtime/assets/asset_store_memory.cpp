@@ -65,6 +65,8 @@ void AssetStore::forget_unused() {
     std::erase_if(vox_files_, [&](const auto& entry) { return !used_.contains(entry.first); });
     std::erase_if(voxels_,
                   [&](const auto& entry) { return !used_.contains(std::get<0>(entry.first)); });
+    std::erase_if(voxel_sources_,
+                  [&](const auto& entry) { return !used_.contains(std::get<0>(entry.first)); });
     for (auto& [model, morphed] : morphed_)
         if (!used_morphs_.contains(model)) morphed.mesh.reset();
     used_.clear();

@@ -63,6 +63,11 @@ const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {
         file.voxels = read_voxels(model);
     }
     if (!map.is_identity()) apply(map, model.voxels, file.voxels);
+    const auto known = voxel_sources_.find(key);
+    if (known != voxel_sources_.end() && !known->second.empty() &&
+        known->second != voxels_source(file.voxels))
+        throw Error(ErrorKind::input, "{}: the file changed while it was being read: try again",
+                    model.voxels.string());
     if (lists_primitives(model.surface)) file.summary = voxelume::summary_of(file.voxels.mesh);
     return voxels_.emplace(key, std::move(file)).first->second;
 }
@@ -78,11 +83,13 @@ const VoxelModel& AssetStore::voxels(const Model& model) {
 }
 
 const std::string& AssetStore::source_of_voxels(const Model& model) {
-    const auto [entry, is_new] = voxel_sources_.try_emplace(voxel_key(model));
-    if (!is_new || !cache_.is_open()) return entry->second;
+    used_.insert(model.voxels);
+    const VoxelKey key = voxel_key(model);
+    if (const auto known = voxel_sources_.find(key); known != voxel_sources_.end())
+        return known->second;
     const VoxelModel& all = voxels(model);
-    if (all.mesh.triangles.empty()) entry->second = voxels_source(all);
-    return entry->second;
+    const bool is_named = cache_.is_open() && all.mesh.triangles.empty();
+    return voxel_sources_[key] = is_named ? voxels_source(all) : std::string();
 }
 
 }  // namespace voxelume

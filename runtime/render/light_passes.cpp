@@ -69,6 +69,7 @@ void make_matt(Scene& scene) {
         m.fresnel = false;
     }
     scene.world.medium = {};
+    scene.render.scatters_samples = has_scattered_samples(scene.render);
     scene.render.light = LightMode::local;
     scene.render.depth = 0;
 }

@@ -192,6 +192,7 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
     const int maximum = asked.samples, first = std::min(kFirstSamples, maximum);
     const double per_sample = tiles.weight / double(maximum);
     Scene part = scene;
+    part.render.scatters_samples = has_scattered_samples(part.render);
     part.render.noise = {};
     part.render.earlier = {};
     part.render.samples = first;

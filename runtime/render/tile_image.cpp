@@ -199,6 +199,7 @@ Scene Renderer::scene_of_moment(Scene now, const Scene& asked) const {
     now.render.size = render.size;
     now.render.crop = render.crop;
     now.render.noise = render.noise;
+    now.render.scatters_samples = render.scatters_samples;
     now.render.channels = render.channels;
     now.render.earlier = render.earlier;
     return now;

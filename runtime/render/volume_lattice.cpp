@@ -104,6 +104,7 @@ class LatticeRender {
     /// does the rest.
     void tell_progress(double steps) const {
         const int samples = work_.scene.render.samples;
+        work_.has_begun = true;
         work_.advance(steps / (3 + (samples > 1 ? samples : 0)));
     }
 
@@ -145,7 +146,7 @@ class LatticeRender {
         };
         if (is_sampled_by_noise(work_.scene.render)) {
             SamplesByNoise& by_noise = by_noise_.emplace(work_.scene.render, sampled_rays(shown));
-            lit_->sample_by(by_noise, nullptr);
+            lit_->sample_by(by_noise);
             with.needed = [&](uint32_t count, uint32_t aimed, const LightSamples& of) {
                 return by_noise.mean(count, aimed, of);
             };

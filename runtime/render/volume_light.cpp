@@ -30,7 +30,6 @@ struct VolumeLight::CopiedRays {
 
 void VolumeWork::advance(double part) {
     done = part;
-    has_begun = true;
     go_on();
 }
 
@@ -49,15 +48,15 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
     report.medium_overflows = illumination.medium_overflows();
 }
 
-VolumeLight::VolumeLight(const VolumeWork& work, uint32_t max_rays, uint32_t tiles_across)
+VolumeLight::VolumeLight(VolumeWork& work, uint32_t max_rays, uint32_t tiles_across)
     : work_(work),
       transmission_(work.features.transmission),
+      keeps_layers_(work.features.own_light && work.frame.layout == VolumeLayout::rays),
       samples_(uint32_t(work.scene.render.samples)),
       sampling_{0, tiles_across, 1, uint32_t(work.scene.render.bounces), 0, 0, 0},
       illumination_(work.device, work.features, work.scene, work.world, max_rays) {
-    const bool keeps_layers = work.features.own_light && work.frame.layout == VolumeLayout::rays;
     if (work.features.global && samples_ > 1 && !is_sampled_by_noise(work.scene.render) &&
-        !keeps_layers)
+        !keeps_layers_)
         mean_.emplace(work.device, work.features, max_rays, samples_);
 }
 
@@ -73,6 +72,13 @@ void VolumeLight::set_sampling(const SampledRays& rays) {
 void VolumeLight::sample(RayBatch& batch, const SampledRays& rays, const LayerSink& sink) {
     set_sampling(rays);
     illumination_.light(batch, rays.count, sink);
+}
+
+/// Tells that a part of the samples of a batch are lit. How many it needs isn't known before.
+void VolumeLight::tell_progress(uint32_t done, uint32_t samples) {
+    if (needed_ || !(end_ > begin_)) return work_.go_on();
+    // Lighting the batch once more takes about as long as one sample.
+    work_.advance(begin_ + (end_ - begin_) * done / (samples + 1.0));
 }
 
 /// Adds the light of one sample of each of `all` rays to the sums of the rays that `ray_of` names.
@@ -119,7 +125,7 @@ void VolumeLight::add_samples(RayBatch& batch, const SampledRays& rays, uint32_t
         more_rays_ += all;
         set_sampling({rays.first, all, rays.sample + i, true, now});
         add_lit(batch, all, ray_of, sums);
-        work_.go_on();
+        tell_progress(i + now, rays.samples);
     }
 }
 
@@ -189,11 +195,12 @@ void VolumeLight::mean_of_fixed(RayBatch& batch, const SampledRays& rays) {
         else
             illumination_.light_hits(batch, rays.count);
         mean_->add(path, batch, rays.count);
-        work_.go_on();
+        tell_progress(path + 1, mean_->paths());
     }
 }
 
 void VolumeLight::mean(RayBatch& batch, const SampledRays& rays, const LayerSink& sink) {
+    if (keeps_layers_) return mean_of_layers(batch, rays, sink);
     if (needed_ && rays.is_shown)
         mean_by_noise(batch, rays);
     else if (mean_)

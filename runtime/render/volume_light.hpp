@@ -42,7 +42,7 @@ class VolumeLight {
   public:
     /// Takes batches of at most `max_rays`. In global light rays are numbered as the pixels of an
     /// image of `tiles_across` tiles side by side.
-    VolumeLight(const VolumeWork& work, uint32_t max_rays, uint32_t tiles_across);
+    VolumeLight(VolumeWork& work, uint32_t max_rays, uint32_t tiles_across);
 
     /// The number of rays that `mean` has sent besides those that it got.
     uint64_t more_rays() const { return more_rays_; }
@@ -50,23 +50,23 @@ class VolumeLight {
     Illumination& illumination() { return illumination_; }
     const Illumination& illumination() const { return illumination_; }
 
-    /// From now on `mean` takes the samples that `needed` asks for. `beams` are sent again for
-    /// them; null: rays have none.
-    void sample_by(SamplesByNoise& needed, BeamStage* beams) {
-        needed_ = &needed;
-        beams_ = beams;
+    /// From now on `mean` takes the samples that `needed` asks for.
+    void sample_by(SamplesByNoise& needed) { needed_ = &needed; }
+    /// Rays have beams, which are sent again for copies of them.
+    void send_beams_again(BeamStage& beams) { beams_ = &beams; }
+    /// The rays of the next call of a mean are this part of the image, of which a part was done.
+    void set_part(double begin, double end) {
+        begin_ = begin;
+        end_ = end;
     }
 
     /// Lights samples of the light of rays.
     void sample(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
 
     /// Lights rays. In global light, a ray gets the mean over the scene's samples, or over those
-    /// that it needs.
+    /// that it needs. In a display of rays, `sink` is called for each layer of surfaces that let
+    /// light through, with the mean of its own light.
     void mean(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
-
-    /// Calls `sink` for each layer of surfaces that let light through, with the same mean of the
-    /// layer's own light. For features with `own_light`.
-    void mean_of_layers(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
 
   private:
     struct CopiedRays;
@@ -79,14 +79,17 @@ class VolumeLight {
 
     void set_sampling(const SampledRays& rays);
     void mean_of_fixed(RayBatch& batch, const SampledRays& rays);
+    void mean_of_layers(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
     void mean_by_noise(RayBatch& batch, const SampledRays& rays);
     std::vector<float> means(RayBatch& batch, const SampledRays& rays, LayerSums* of_layers);
     void add_samples(RayBatch& batch, const SampledRays& rays, uint32_t first,
                      std::span<const float> aimed, LightSums& sums);
     void add_lit(RayBatch& batch, uint32_t all, const CopiedRays& ray_of, LightSums& sums);
 
-    const VolumeWork& work_;
-    bool transmission_;
+    void tell_progress(uint32_t done, uint32_t samples);
+
+    VolumeWork& work_;
+    bool transmission_, keeps_layers_;
     uint32_t samples_;
     PathSampling sampling_;  ///< sampling of the first path of ray 0
     Illumination illumination_;
@@ -94,6 +97,7 @@ class VolumeLight {
     SamplesByNoise* needed_ = nullptr;
     BeamStage* beams_ = nullptr;
     uint64_t more_rays_ = 0;
+    double begin_ = 0, end_ = 0;  ///< see `set_part`; equal: progress isn't known
 };
 
 }  // namespace voxelume

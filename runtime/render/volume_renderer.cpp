@@ -40,7 +40,7 @@ void check_rays(const VolumeFrame& frame) {
 void render_rays(VolumeWork& work, Volume& volume) {
     check_rays(work.frame);
     const uint32_t tiles = tile_count(work.camera.width, work.camera.height);
-    const uint32_t in_batch = batch_tiles(work.device, work.features, 1, tiles);
+    const uint32_t in_batch = display_batch_tiles(work.device, work.features, tiles);
     RayBatch batch = allocate_batch(work.device, work.features, in_batch * 16);
     const double pixel = voxels_a_pixel(work.scene, work.camera, work.world.frame);
     const auto dilated_occupancy_of =
@@ -65,8 +65,8 @@ void render_rays(VolumeWork& work, Volume& volume) {
                              work.scene.world.medium, environment_of(work.scene.world));
     SamplesByNoise by_noise(work.scene.render, 16ull * tiles);
     // Local light of one ray has no noise.
-    if (work.features.global && is_sampled_by_noise(work.scene.render))
-        light.sample_by(by_noise, beams ? &*beams : nullptr);
+    if (work.features.global && is_sampled_by_noise(work.scene.render)) light.sample_by(by_noise);
+    if (beams) light.send_beams_again(*beams);
     for (uint32_t first = 0; first < tiles; first += in_batch) {
         const uint32_t now = std::min(in_batch, tiles - first);
         const uint32_t rays = camera.cast(shape_of(work.world), first, now, batch);
@@ -76,15 +76,14 @@ void render_rays(VolumeWork& work, Volume& volume) {
                                {entries, count, is_first, nodes, first * 16});
         };
         if (beams) beams->start(batch, rays);
-        if (work.features.own_light)
-            light.mean_of_layers(batch, {first * 16, rays}, keep_layer);
-        else
-            light.mean(batch, {first * 16, rays}, keep_layer);
+        light.set_part(double(first) / tiles, double(first + now) / tiles);
+        light.mean(batch, {first * 16, rays}, keep_layer);
         if (!display.has_layers())
             display.keep(shape_of(work.world), batch, first * 16, rays);
         else if (!work.features.transmission)
             keep_layer(batch, rays, true, {batch.radiance, {}, batch.stride});
         work.report.sight_rays += rays;
+        work.has_begun = true;
         share_compiled_kernels(work.device);
         work.advance(double(first + now) / tiles);
     }

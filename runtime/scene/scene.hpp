@@ -109,11 +109,13 @@ struct RenderSettings {
     LightMode light = LightMode::local;
     int bounces = 8;  ///< global light: maximum number of times that a path is scattered, 0..64
     EmitterSearch emitters = EmitterSearch::both;
-    bool direct_alone = false;  ///< not in scene files: lights light first surfaces alone
-    bool transparent = false;   ///< observers see nothing where no object is; other rays do
-    NoiseTarget noise;          ///< not in scene files
-    ImageChannels channels;     ///< not in scene files: the channels of the outputs
-    bool shows_image = true;    ///< not in scene files: flat images are wanted
+    bool scatters_samples = false;  ///< not in scene files: as has_scattered_samples() says, though
+                                    ///< the light is local now
+    bool direct_alone = false;      ///< not in scene files: lights light first surfaces alone
+    bool transparent = false;       ///< observers see nothing where no object is; other rays do
+    NoiseTarget noise;              ///< not in scene files
+    ImageChannels channels;         ///< not in scene files: the channels of the outputs
+    bool shows_image = true;        ///< not in scene files: flat images are wanted
     bool shows_volume = false;  ///< not in scene files: the display's volumetric images are wanted
     /// The image of the samples before `first_sample`, a power of two, to which others are added;
     /// with `noise`, its channels give the numbers of samples. Null: there is none. Not in scene
@@ -164,6 +166,11 @@ void crop(Scene& scene, glm::ivec2 first, glm::ivec2 size);
 /// The number of samples of a pixel, including those of other moments.
 inline int all_samples(const RenderSettings& render) {
     return render.all_samples > 0 ? render.all_samples : render.samples;
+}
+
+/// True if each pixel has its samples at places of its own. All channels of an image have the same.
+inline bool has_scattered_samples(const RenderSettings& render) {
+    return render.scatters_samples || render.light == LightMode::global || render.noise.is_given();
 }
 
 /// True if samples are added to those of an earlier image.

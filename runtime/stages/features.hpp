@@ -51,16 +51,16 @@ struct Features {
     bool observer_in_medium = false;   ///< observers' rays may begin inside a transmitting mesh or
                                        ///< smooth object
     bool global = false;               ///< light is followed along paths
-    bool own_light = false;  ///< global light with only the first surfaces shown, without what they
-                             ///< let through straight
-    bool physical = false;   ///< in global light, some material is physically based
-    bool rough_glass = false;      ///< some physically based material transmits light
-    bool coat = false;             ///< some physically based material has a coat
-    bool weak_facets = false;      ///< some physical material reflects less than its index implies
-    bool area_shares = false;      ///< paths and rays to area lights are combined
-    bool meets_lights = false;     ///< paths may run into area lights
-    bool direct_alone = false;     ///< only light that comes straight to the first surfaces
-    bool scattered_sight = false;  ///< each pixel's samples lie elsewhere in it
+    bool own_light = false;     ///< global light of surfaces alone, without what these let through
+                                ///< straight
+    bool physical = false;      ///< in global light, some material is physically based
+    bool rough_glass = false;   ///< some physically based material transmits light
+    bool coat = false;          ///< some physically based material has a coat
+    bool weak_facets = false;   ///< some physical material reflects less than its index implies
+    bool area_shares = false;   ///< paths and rays to area lights are combined
+    bool meets_lights = false;  ///< paths may run into area lights
+    bool direct_alone = false;  ///< only light that comes straight to the first surfaces
+    bool scattered_sight = false;  ///< each pixel has samples at places of its own
     bool lens = false;             ///< sight rays start on all points of a lens
     bool blades = false;           ///< the lens is a polygon
     int emitters = 0;              ///< VXL_EMITTERS_*: how paths find emissive surfaces

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/analysis/object_lattice.hpp"
+#include "runtime/analysis/placed_objects.hpp"
 #include "runtime/base/files/cache_key.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -68,7 +69,7 @@ std::string world_source(const Scene& scene, AssetStore& meshes) {
         if (is_instanced(scene, object) || !is_potentially_visible(scene, object)) continue;
         const Model& model = scene.models[size_t(object.model)];
         if (!model.voxels.empty() && source_of_files(model, meshes).empty()) return {};
-        words.add(number).add(object.priority).add(shows_inside(scene, object));
+        words.add(number).add(object.priority).add(keeps_inside(scene, object, model));
         words.add_columns(object.world_from_object);
         // Grids on the world's own lattice depend on their map alone.
         const Lattice lattice = lattices.lattice_of(object);

@@ -250,15 +250,15 @@ TEST_F(ModelCacheFiles, AModelThatTakesMoreThanAnEighthOfItIsKeptWhenItIsMadeAga
     };
     show(scene, cache());
     const uint64_t largest = largest_entry();
-    const auto is_kept_after = [&](uint64_t bytes, int runs) {
+    const auto is_kept_after = [&](int runs, uint64_t bytes) {
         fs::remove_all(folder / "models");
         for (int run = 0; run < runs; ++run) show(scene, ModelCache(folder / "models", bytes, 0));
         return largest_entry() == largest;
     };
-    EXPECT_TRUE(is_kept_after(10 * largest, 1));
-    EXPECT_FALSE(is_kept_after(6 * largest, 1));
-    EXPECT_TRUE(is_kept_after(6 * largest, 2));
-    EXPECT_FALSE(is_kept_after(largest, 3)) << "more than half of it";
+    EXPECT_TRUE(is_kept_after(1, 10 * largest));
+    EXPECT_FALSE(is_kept_after(1, 6 * largest));
+    EXPECT_TRUE(is_kept_after(2, 6 * largest));
+    EXPECT_FALSE(is_kept_after(3, largest)) << "more than half of it";
 }
 
 TEST_F(ModelCacheFiles, AFolderThatCannotBeWrittenKeepsNothing) {

@@ -116,8 +116,7 @@ TEST(GlobalLayers, LaidOverOneAnotherAreTheFlatImageAsSamplesGrow) {
     }
 }
 
-// Under an even sky each surface of a convex body sends out its albedo, as seen from inside it,
-// too.
+// Without bounces only emission shows, which is a surface's own, behind whatever it lies.
 TEST(GlobalLayers, HaveTheirOwnLightAtAnyDepth) {
     const Scene scene = parsed(R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
@@ -137,7 +136,6 @@ TEST(GlobalLayers, HaveTheirOwnLightAtAnyDepth) {
     for (size_t i = 0; i < volume.indices.size(); ++i) {
         const float clear[] = {0, 0.5f, 0.25f, 1};
         EXPECT_NEAR(volume.opacities[i], clear[volume.objects[i]], 1e-6f);
-        // Without bounces only emission shows, which is a surface's own at any depth.
         const bool shines = volume.objects[i] == 3;
         EXPECT_NEAR(volume.colors[i].z, shines ? 0.7f : 0.0f, 1e-5f) << volume.objects[i];
     }

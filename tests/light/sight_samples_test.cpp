@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <vector>
 
@@ -47,12 +48,13 @@ struct Picture {
 };
 
 /// The positions of a pixel's samples, from its upper left corner.
-std::vector<glm::dvec2> positions_in(glm::ivec2 pixel, int samples, int lanes = 0) {
+std::vector<glm::dvec2> positions_in(glm::ivec2 pixel, int samples, int lanes = 0,
+                                     const ReconstructionFilter& filter = {}) {
     const Picture picture(samples);
     const Device device = test_device(lanes);
     Features features;
     features.scattered_sight = true;
-    SightStage stage(device, features, camera_of(picture.scene, picture.world.frame));
+    SightStage stage(device, features, camera_of(picture.scene, picture.world.frame), filter);
     RayBatch batch;
     batch.stride = uint32_t(16 * samples);
     batch.rays = Buffer<float>(device, "rays", size_t(batch.stride) * VXL_RAY_COMPONENTS);
@@ -87,6 +89,20 @@ TEST(SightSamples, FillEachPixelEvenlyInItsOwnWayAroundItsMiddle) {
     }
     EXPECT_EQ(seconds.size(), 4u);
     EXPECT_EQ(positions_in({3, 0}, 16, 1), positions_in({3, 0}, 16, 16));
+}
+
+// A tent reaches as far as the middles of the pixels around, and half of it lies within the pixel's
+// middle part of 2 - sqrt(2) pixels.
+TEST(SightSamples, LieDenserWhereTheFilterIsHigher) {
+    const std::vector<glm::dvec2> at = positions_in({3, 4}, 256, 0, {FilterShape::tent, 2});
+    int within = 0, right = 0;
+    for (const glm::dvec2& p : at) {
+        ASSERT_TRUE(p.x > -0.5001 && p.x < 1.5001 && p.y > -0.5001 && p.y < 1.5001);
+        within += std::abs(p.x - 0.5) < 1 - std::sqrt(0.5);
+        right += p.x > 0.5001;
+    }
+    EXPECT_NEAR(within, 128, 3);
+    EXPECT_NEAR(right, 128, 2);
 }
 
 // So a part of an image, or the samples that another run adds, are those of the whole.

@@ -176,6 +176,13 @@ TEST_F(WorldCacheFiles, FilesOfVoxelsAreKnownByTheirContent) {
         EXPECT_TRUE(show(shown).world.is_from_cache);
         EXPECT_EQ(show(shown).hash, show(shown, false).hash);
     }
+    // Light that goes into bricks that are full meets what is inside.
+    put_cells(std::string(4096, '\1'), "16, 16, 16");
+    show(shown);
+    Scene clear = shown;
+    for (Material& material : clear.materials) material.opacity = 0.5;
+    EXPECT_FALSE(show(clear).world.is_from_cache) << "one that lets light through";
+    EXPECT_EQ(show(clear).hash, show(clear, false).hash);
     std::filesystem::remove(folder / "m.npy");
     EXPECT_THROW(show(shown), Error);
 }

@@ -84,7 +84,7 @@ class DisplayCounter {
     /// Follows VolumeRenderer in the layout `rays`.
     double rays() {
         const uint32_t tiles = tile_count(frame_.size.x, frame_.size.y), all = tiles * 16;
-        const uint32_t in_batch = batch_tiles(device_, features_, 1, tiles) * 16;
+        const uint32_t in_batch = display_batch_tiles(device_, features_, tiles) * 16;
         const DisplayLight light =
             count_light(device_, scene_, features_, counts_of(in_batch), medium_);
         const auto of = dilation_that_pays(features_, world_, all, pixel_width());

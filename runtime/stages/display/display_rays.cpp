@@ -5,6 +5,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/stages/display/display_layers.hpp"
+#include "runtime/stages/trace/ray_arrays.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
@@ -80,6 +81,12 @@ void read_voxels(const VoxelArrays& voxels, Volume& volume) {
         volume.colors[i] = {colors[3 * i], colors[3 * i + 1], colors[3 * i + 2]};
         volume.kinds[i] = volume.objects[i] == 0 ? VoxelKind::space : VoxelKind::object;
     }
+}
+
+uint32_t display_batch_tiles(const Device& device, const Features& features, uint32_t tiles) {
+    constexpr uint32_t kLayerTiles = 4096;
+    const uint32_t most = batch_tiles(device, features, 1, tiles);
+    return features.own_light ? std::min(most, kLayerTiles) : most;
 }
 
 DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& features,

@@ -62,6 +62,11 @@ RayDepths allocate_ray_depths(const Device& device, const Features& features, ui
 /// VXL_DEPTHS_PARAMETERS of kernels.
 void bind(KernelArguments& to, const RayDepths& depths);
 
+/// The number of tiles of 4 x 4 rays that make a batch, up to `tiles`. Those of rays that go
+/// through surfaces in global light are limited, since main memory holds the light of each ray in
+/// each layer.
+uint32_t display_batch_tiles(const Device& device, const Features& features, uint32_t tiles);
+
 /// Kernels of display_rays.cl or, for layers, display_layers.cl, and the data that they store for
 /// each sight ray. The paper's blocks 2 and 3.
 class DisplayRaysStage {

@@ -21,10 +21,10 @@ Camera camera_of(const Scene& scene, const GridFrame& world);
 /// The distance between the rays of neighbouring pixels at the middle of the world, in voxels.
 double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame& world);
 
-/// The positions of the samples in a pixel: x and y, equal for all pixels, in [0, 1) except for
-/// filters that are wider than a pixel. A single sample is the centre; several are the R2 sequence
-/// of Roberts 2018, which fills a square evenly for any number of samples, denser where the filter
-/// is higher.
+/// Without `scattered_sight`, the positions of the samples in each pixel: x and y, in [0, 1) except
+/// for filters that are wider than a pixel. A single sample is the centre; several are the R2
+/// sequence of Roberts 2018, which fills a square evenly for any number of samples, denser where
+/// the filter is higher.
 std::vector<float> sample_offsets(int samples, int first = 0,
                                   const ReconstructionFilter& filter = {});
 
