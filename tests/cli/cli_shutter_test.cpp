@@ -77,8 +77,9 @@ TEST_F(CliShutterTest, GoesOnByNoise) {
 /// Sums of 32 floats, or means of sums of halves, are each right within 31 half units of the last
 /// bit, 1.9e-6.
 TEST_F(CliShutterTest, TilesWithAllSamplesShowAllMoments) {
-    render("-o plain.####.exr --samples 32 --channels RGBA");
-    render("-o noise.####.exr --samples 32 --channels RGBA --noise 0.0001");
+    const std::string line = "--light global --samples 32 --channels RGBA ";
+    render(line + "-o plain.####.exr");
+    render(line + "-o noise.####.exr --noise 0.0001");
     const Image plain = read_exr(folder / "plain.0002.exr");
     const Image noise = read_exr(folder / "noise.0002.exr");
     for (const char* plane : {"R", "G", "B", "A"})
