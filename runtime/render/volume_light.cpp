@@ -84,23 +84,25 @@ void VolumeLight::tell_progress(uint32_t done, uint32_t samples) {
 /// Adds the light of one sample of each of `all` rays to the sums of the rays that `ray_of` names.
 void VolumeLight::add_lit(RayBatch& batch, uint32_t all, const CopiedRays& ray_of,
                           LightSums& sums) {
-    const auto add = [&](const NodeLight& lit, std::span<float> to, size_t stride) {
+    const auto add = [&](const NodeLight& lit, std::vector<float>* layer) {
         for (size_t channel = 0; channel < 3; ++channel) {
             const std::vector<float> values = lit.radiance.read(channel * lit.stride, all);
-            for (size_t n = 0; n < all; ++n) to[stride * ray_of(n) + channel] += values[n];
+            for (size_t n = 0; n < all; ++n) {
+                sums.of_rays[4 * ray_of(n) + channel] += values[n];
+                if (layer) (*layer)[3 * ray_of(n) + channel] += values[n];
+            }
         }
     };
     if (sums.of_layers == nullptr) {
         illumination_.light(batch, all);
-        add({batch.radiance, {}, batch.stride}, sums.of_rays, 4);
+        add({batch.radiance, {}, batch.stride}, nullptr);
     } else {
         size_t number = 0;
         illumination_.light_layers(
             batch, all, [&](const RayBatch&, uint32_t, bool, const NodeLight& lit) {
                 if (number == sums.of_layers->size())
                     sums.of_layers->emplace_back(sums.of_rays.size() / 4 * 3, 0.0f);
-                add(lit, sums.of_rays, 4);
-                add(lit, (*sums.of_layers)[number++], 3);
+                add(lit, &(*sums.of_layers)[number++]);
             });
     }
     const std::vector<uint32_t> met = batch.hits.read(VXL_HIT_VOXEL * size_t(batch.stride), all);
@@ -130,8 +132,8 @@ void VolumeLight::add_samples(RayBatch& batch, const SampledRays& rays, uint32_t
 }
 
 /// Returns four means for each ray, of the light along it and of hits, over the samples that the
-/// rays need or else over `samples_`. Adds the sums of each layer to `of_layers`, unless it is
-/// null, and the numbers of samples to `counts`. Leaves one sample of each ray in the batch.
+/// rays need or else over `samples_`. `of_layers`, unless it is null, gets the mean light of each
+/// layer. Leaves the rays in the batch as they came.
 std::vector<float> VolumeLight::means(RayBatch& batch, const SampledRays& rays,
                                       LayerSums* of_layers) {
     std::vector<float> aimed = batch.rays.read();
