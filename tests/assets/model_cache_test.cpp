@@ -243,22 +243,15 @@ TEST_F(ModelCacheFiles, ItsSizeIsBounded) {
 
 TEST_F(ModelCacheFiles, AModelThatTakesMoreThanAnEighthOfItIsKeptWhenItIsMadeAgain) {
     const Scene scene = scene_of(R"("resolution": 16)");
-    const auto largest_entry = [&] {
-        uint64_t largest = 0;
-        for (const fs::path& entry : entries()) largest = std::max(largest, fs::file_size(entry));
-        return largest;
-    };
+    const auto size = [](const fs::path& entry) { return fs::file_size(entry); };
     show(scene, cache());
-    const uint64_t largest = largest_entry();
-    const auto is_kept_after = [&](int runs, uint64_t bytes) {
+    const uint64_t largest = size(std::ranges::max(entries(), {}, size));
+    for (const auto& [runs, of, kept] : {std::tuple(1, 10, 1), {1, 6, 0}, {2, 6, 1}, {3, 1, 0}}) {
         fs::remove_all(folder / "models");
-        for (int run = 0; run < runs; ++run) show(scene, ModelCache(folder / "models", bytes, 0));
-        return largest_entry() == largest;
-    };
-    EXPECT_TRUE(is_kept_after(1, 10 * largest));
-    EXPECT_FALSE(is_kept_after(1, 6 * largest));
-    EXPECT_TRUE(is_kept_after(2, 6 * largest));
-    EXPECT_FALSE(is_kept_after(3, largest)) << "more than half of it";
+        const ModelCache small(folder / "models", uint64_t(of) * largest, 0);
+        for (int run = 0; run < runs; ++run) show(scene, small);
+        EXPECT_EQ(std::ranges::count(entries(), largest, size), kept) << runs << of;
+    }
 }
 
 TEST_F(ModelCacheFiles, AFolderThatCannotBeWrittenKeepsNothing) {
