@@ -4,7 +4,6 @@
 #include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <regex>
 #include <set>

@@ -49,7 +49,9 @@ TEST(ManyAreaLights, BringTheLightOfEachToAMedium) {
         if (lights != 40 && !is_exhaustive()) continue;
         Scene scene = with_areas(foggy_yard(lights, 12, 128, anisotropy));
         for (Material& material : scene.materials) material.color = glm::vec3(0);
-        // Nine lights have more noise beside their light, even in four times the samples.
+        // Nine lights have more noise beside their light, even in four times the samples. The error
+        // of forty is that of single rays past a light, and doesn't fall with some more parts: 1.5
+        // % with 8, 3.0 % with 24.
         expect_light_of_each(scene, is_exhaustive() ? 32 : 8, lights > 9 ? 0.02 : 0.03);
     }
 }

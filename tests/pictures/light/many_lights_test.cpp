@@ -48,11 +48,9 @@ TEST(ManyLights, BringTheLightOfEachToAMedium) {
         if (is_noisy && !is_exhaustive()) continue;
         Scene scene = foggy_yard(lights, 4, is_noisy ? 32 : 16, anisotropy);
         for (Material& material : scene.materials) material.color = glm::vec3(0);
-        expect_light_of_each(scene,
-                             is_exhaustive() ? 32
-                             : lights > 9    ? 8
-                                             : 16,
-                             is_noisy ? 0.015 : 0.01);
+        // Parts share their pixels' scrambling, so few of them tell too small an error.
+        const int parts = lights > 9 ? 8 : 16, all = is_noisy ? 64 : 32;
+        expect_light_of_each(scene, is_exhaustive() ? all : parts);
     }
 }
 
