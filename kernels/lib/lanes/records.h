@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads whole records of eight words, one record for each lane.
+// Reads eight words that follow each other, from a place of its own for each lane.
 //
-// Eight gathers would touch every record eight times. Instead each lane's record is one load, and
+// Eight gathers would touch every place eight times. Instead each lane's words are one load, and
 // the square of words is transposed in three rounds: round s exchanges, between vectors i and i +
 // s, the words k with k & s (i without that bit) in each group of eight.
 #ifndef VXL_RECORDS_H
@@ -18,8 +18,9 @@ typedef struct {
 
 #if VXL_LANES == 16
 
-#define VXL_RECORD_PAIR(p, a, b) \
-    ((uint16)(vload8((size_t)(uint)(a), p), vload8((size_t)(uint)(b), p)))
+#define VXL_WORDS_PAIR(p, unit, a, b)                            \
+    ((uint16)(vload8(0, p + (size_t)(uint)(a) * (size_t)(unit)), \
+              vload8(0, p + (size_t)(uint)(b) * (size_t)(unit))))
 
 static inline void exchange_words_1(uint16* restrict a, uint16* restrict b) {
     const uint16 x = *a, y = *b;
@@ -39,13 +40,12 @@ static inline void exchange_words_4(uint16* restrict a, uint16* restrict b) {
     *b = (uint16)(x.s4567, y.s4567, x.scdef, y.scdef);
 }
 
-/// Reads the records numbered `number` of the array at p.
-static inline Records read_records(global const uint* restrict p, lane_uint number) {
-    const lane_uint n = number;
-    uint16 v0 = VXL_RECORD_PAIR(p, n.s0, n.s8), v1 = VXL_RECORD_PAIR(p, n.s1, n.s9);
-    uint16 v2 = VXL_RECORD_PAIR(p, n.s2, n.sa), v3 = VXL_RECORD_PAIR(p, n.s3, n.sb);
-    uint16 v4 = VXL_RECORD_PAIR(p, n.s4, n.sc), v5 = VXL_RECORD_PAIR(p, n.s5, n.sd);
-    uint16 v6 = VXL_RECORD_PAIR(p, n.s6, n.se), v7 = VXL_RECORD_PAIR(p, n.s7, n.sf);
+/// Reads eight words of the array at p, from word `n` * unit on.
+static inline Records read_words(global const uint* restrict p, uint unit, lane_uint n) {
+    uint16 v0 = VXL_WORDS_PAIR(p, unit, n.s0, n.s8), v1 = VXL_WORDS_PAIR(p, unit, n.s1, n.s9);
+    uint16 v2 = VXL_WORDS_PAIR(p, unit, n.s2, n.sa), v3 = VXL_WORDS_PAIR(p, unit, n.s3, n.sb);
+    uint16 v4 = VXL_WORDS_PAIR(p, unit, n.s4, n.sc), v5 = VXL_WORDS_PAIR(p, unit, n.s5, n.sd);
+    uint16 v6 = VXL_WORDS_PAIR(p, unit, n.s6, n.se), v7 = VXL_WORDS_PAIR(p, unit, n.s7, n.sf);
     exchange_words_1(&v0, &v1), exchange_words_1(&v2, &v3);
     exchange_words_1(&v4, &v5), exchange_words_1(&v6, &v7);
     exchange_words_2(&v0, &v2), exchange_words_2(&v1, &v3);
@@ -58,13 +58,18 @@ static inline Records read_records(global const uint* restrict p, lane_uint numb
 
 #else
 
-/// Reads the records numbered `number` of the array at p.
-static inline Records read_records(global const uint* restrict p, lane_uint number) {
+/// Reads eight words of the array at p, from word `n` * unit on.
+static inline Records read_words(global const uint* restrict p, uint unit, lane_uint n) {
     Records r;
-    for (uint i = 0; i < VXL_RECORD_WORDS; ++i)
-        r.word[i] = LANES_GATHER_UINT(p, number * VXL_RECORD_WORDS + i);
+    for (uint i = 0; i < VXL_RECORD_WORDS; ++i) r.word[i] = LANES_GATHER_UINT(p, n * unit + i);
     return r;
 }
 
 #endif
+
+/// Reads the records numbered `number`, of eight words each, of the array at p.
+static inline Records read_records(global const uint* restrict p, lane_uint number) {
+    return read_words(p, VXL_RECORD_WORDS, number);
+}
+
 #endif

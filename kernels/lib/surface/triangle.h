@@ -8,6 +8,7 @@
 #ifndef VXL_TRIANGLE_H
 #define VXL_TRIANGLE_H
 
+#include "lib/lanes/records.h"
 #include "lib/lanes/vector.h"
 #include "lib/traverse/walk.h"
 
@@ -54,11 +55,11 @@ typedef struct {
     lane_float x, y, z;
 } ShearedCorner;
 
-static inline ShearedCorner shear_corner(global const float* restrict triangles, lane_uint first,
+static inline ShearedCorner shear_corner(lane_uint x_bits, lane_uint y_bits, lane_uint z_bits,
                                          const Walk* w, const RayShear* s) {
-    const lane_float vx = LANES_GATHER_FLOAT(triangles, first) - w->ox;
-    const lane_float vy = LANES_GATHER_FLOAT(triangles, first + 1u) - w->oy;
-    const lane_float vz = LANES_GATHER_FLOAT(triangles, first + 2u) - w->oz;
+    const lane_float vx = LANES_AS_FLOAT(x_bits) - w->ox;
+    const lane_float vy = LANES_AS_FLOAT(y_bits) - w->oy;
+    const lane_float vz = LANES_AS_FLOAT(z_bits) - w->oz;
     const lane_float z = LANES_SELECT(s->z_is_x, vx, LANES_SELECT(s->z_is_y, vy, vz));
     const lane_float x = LANES_SELECT(s->z_is_x, vy, LANES_SELECT(s->z_is_y, vz, vx));
     const lane_float y = LANES_SELECT(s->z_is_x, vz, LANES_SELECT(s->z_is_y, vx, vy));
@@ -85,10 +86,12 @@ static inline lane_int hit_triangle(const PyramidView* p, lane_float t_min,
                                     lane_uint number, const Walk* w, const RayShear* s,
                                     lane_int within, lane_int outside, lane_int tested,
                                     lane_float* t, lane_int* front) {
-    const lane_uint first = number * 9u;
-    const ShearedCorner a = shear_corner(triangles, first, w, s);
-    const ShearedCorner b = shear_corner(triangles, first + 3u, w, s);
-    const ShearedCorner c = shear_corner(triangles, first + 6u, w, s);
+    global const uint* words = (global const uint*)triangles;
+    const Records r = read_words(words, 9u, number);
+    const lane_uint last = LANES_GATHER_UINT(words, number * 9u + 8u);
+    const ShearedCorner a = shear_corner(r.word[0], r.word[1], r.word[2], w, s);
+    const ShearedCorner b = shear_corner(r.word[3], r.word[4], r.word[5], w, s);
+    const ShearedCorner c = shear_corner(r.word[6], r.word[7], last, w, s);
     const lane_float u = edge_function(c, b);
     const lane_float v = edge_function(a, c);
     const lane_float e = edge_function(b, a);
