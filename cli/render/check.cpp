@@ -25,8 +25,7 @@ Action add_check(CLI::App& app) {
     return [options] {
         set_limits(options->scene, "check");
         const Scene scene = read_with(options->scene, "check");
-        print_plan(scene, Device::open(options->scene.device),
-                   {.cache = cache_options(options->scene)},
+        print_plan(scene, options->scene.device, {.cache = cache_options(options->scene)},
                    {options->json, options->quiet, options->scene.strict, true});
         return 0;
     };

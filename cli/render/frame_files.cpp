@@ -71,6 +71,29 @@ void check_stream(const RenderCommand& options) {
             "render: -o -: standard output is a terminal; write the image to a file or pipe");
 }
 
+/// Refuses options that change no file: those of .png files where none is written, and those of
+/// .exr files likewise.
+void check_effects(const RenderCommand& options) {
+    if (options.plan_only || !options.volumes.empty()) return;
+    const auto writes = [&](std::string_view ending) {
+        return std::ranges::any_of(options.outputs, [&](const std::string& output) {
+            return ending_of(output == "-" ? "-.png" : output) == ending;
+        });
+    };
+    const RenderCommand usual;
+    const auto refuse = [&](bool is_given, const char* option, const char* ending) {
+        if (is_given && !writes(ending))
+            fail_usage("render: {} changes {} files, and -o names none: leave it out, or add one",
+                       option, ending);
+    };
+    refuse(options.exposure != usual.exposure, "--exposure", ".png");
+    refuse(options.view_transform != usual.view_transform, "--view-transform", ".png");
+    refuse(options.png_bits != usual.png_bits, "--png-bits", ".png");
+    refuse(options.float_color, "--float", ".exr");
+    refuse(options.multi_part, "--multi-part", ".exr");
+    refuse(options.channels != usual.channels, "--channels", ".exr");
+}
+
 /// Adds the options for inputs and outputs.
 void add_input_options(CLI::App& app, RenderCommand& command) {
     app.add_option("SCENE", command.inputs,
@@ -241,6 +264,7 @@ void check_options(const RenderCommand& options) {
     if (!options.earlier.empty() && options.outputs.empty())
         fail_usage("render: --continue adds samples to an image: name one by -o");
     check_stream(options);
+    check_effects(options);
     for (const std::string& pattern : options.outputs)
         if (!is_stream(pattern))
             for (const std::filesystem::path& file :

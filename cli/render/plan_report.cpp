@@ -59,12 +59,12 @@ Report surface_rows(const Plan& plan) {
     return rows;
 }
 
-Report plan_report(const Plan& plan, const Device& device) {
+Report plan_report(const Plan& plan) {
     Report report;
     if (!plan.surfaces.empty()) report["surfaces"] = surface_rows(plan);
     report["grids"] = Report::array();
     for (const GridPlan& grid : plan.grids) report["grids"].push_back(grid_row(grid));
-    report["device"] = device.info().name;
+    report["device"] = plan.device;
     report["stages"] = Report::array();
     for (const StagePlan& stage : plan.stages)
         report["stages"].push_back(
@@ -146,7 +146,8 @@ void print_verdict(const Plan& plan, size_t frames) {
 }
 
 /// Plans a scene, and shows a bar to a person, because many frames take long.
-Plan watched_plan(const Scene& scene, const Device& device, PlanOptions options, bool is_quiet) {
+Plan watched_plan(const Scene& scene, const std::string& selector, PlanOptions options,
+                  bool is_quiet) {
     std::optional<Progress> bar;
     size_t told = 0;
     options.progress = [&](size_t done, size_t frames) {
@@ -157,21 +158,21 @@ Plan watched_plan(const Scene& scene, const Device& device, PlanOptions options,
         bar->advance(done - told);
         told = done;
     };
-    return voxelume::plan(scene, device, options);
+    return voxelume::plan(scene, selector, options);
 }
 
 }  // namespace
 
-void print_plan(const Scene& scene, const Device& device, const PlanOptions& options,
+void print_plan(const Scene& scene, const std::string& selector, const PlanOptions& options,
                 const PlanPrint& print) {
-    const Plan plan = watched_plan(scene, device, options, print.quiet);
+    const Plan plan = watched_plan(scene, selector, options, print.quiet);
     tell_warnings(plan.warnings, print.quiet, print.strict);
     const bool as_json = print.as_json;
     if (!as_json) {
         fmt::print("{}\n", scene.describe());
         print_fitted(scene);
     }
-    Report report = plan_report(plan, device);
+    Report report = plan_report(plan);
     if (scene.moves()) report["frame"] = plan.frame;
     if (plan.chosen_frames > 0) report["chosen frames"] = plan.chosen_frames;
     if (as_json) {

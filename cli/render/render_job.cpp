@@ -124,9 +124,8 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
         if (!command.stats.empty()) write_file(command.stats, to_json(statistics));
         return;
     }
-    const std::vector<Device>& devices = lazy_devices.open();
     if (command.plan_only) {
-        print_plan(scene, devices[0],
+        print_plan(scene, lazy_devices.selector(),
                    {.frames = numbers_of(job.frames),
                     .channels = needed_channels(job),
                     .image = !command.outputs.empty(),
@@ -137,6 +136,7 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
                     .tells_volume = command.outputs.empty() && command.volumes.empty()});
         return;
     }
+    const std::vector<Device>& devices = lazy_devices.open();
     if (!command.quiet && scene.has_default_light())
         tell("note: {}\n",
              harmless_line(fmt::format("{}: has no \"lights\", so one shines from the "

@@ -14,6 +14,7 @@ class LazyDevices {
   public:
     explicit LazyDevices(std::string selector) : selector_(std::move(selector)) {}
     const std::vector<Device>& open();
+    const std::string& selector() const { return selector_; }
 
   private:
     std::string selector_;

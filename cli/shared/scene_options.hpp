@@ -69,7 +69,7 @@ struct PlanPrint {
 ///
 /// Throws Error::limit, after saying why, if a frame doesn't fit, and Error::scene for warnings if
 /// they are errors.
-void print_plan(const Scene& scene, const Device& device, const PlanOptions& options,
+void print_plan(const Scene& scene, const std::string& selector, const PlanOptions& options,
                 const PlanPrint& print);
 
 }  // namespace voxelume::cli

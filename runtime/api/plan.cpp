@@ -19,6 +19,7 @@
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/memory/image_bands.hpp"
+#include "runtime/opencl/self_test/device_facts.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene/shutter.hpp"
@@ -116,6 +117,33 @@ ImageBands planned_bands(const Scene& scene, std::span<const int> frames, AssetS
     return {scene.render.size.y, 1};
 }
 
+v1::Plan plan_on(const v1::Scene& scene, const DeviceInfo& device, const v1::PlanOptions& options) {
+    Scene planned = api::inside(scene);
+    planned.render.channels = api::inside(options.channels);
+    planned.render.shows_image = options.image || !options.volume;
+    planned.render.shows_volume = options.volume;
+    const std::vector<int> frames = frames_of(planned, options.frames);
+    check_tables(planned, device);
+    AssetStore meshes = api::assets_of(scene, options.cache);
+    make_choices(planned, meshes);
+    const std::vector<Warning> warnings = scene_warnings(planned, frames, meshes);
+    find_potentially_visible(planned, frames, meshes);
+    const ImageBands bands = planned_bands(planned, frames, meshes, device);
+    planned = band_of(planned, bands, 0);
+    const auto progress = [&](size_t done) { options.progress(done, frames.size()); };
+    v1::Plan result =
+        plan_for_callers(planned,
+                         plan_frames(planned, frames, meshes, device,
+                                     options.progress ? std::function<void(size_t)>(progress)
+                                                      : std::function<void(size_t)>()),
+                         frames.size(), device);
+    result.device = device.name;
+    result.bands = bands.count;
+    result.band_rows = bands.rows;
+    result.warnings = api::warnings_for_callers(warnings);
+    return result;
+}
+
 }  // namespace
 
 namespace v1 {
@@ -127,31 +155,13 @@ const char* name_of(Verdict verdict) {
 }
 
 Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) {
+    return api::guarded([&] { return plan_on(scene, api::inside(device).info(), options); });
+}
+
+Plan plan(const Scene& scene, std::string_view selector, const PlanOptions& options) {
     return api::guarded([&] {
-        voxelume::Scene planned = api::inside(scene);
-        planned.render.channels = api::inside(options.channels);
-        planned.render.shows_image = options.image || !options.volume;
-        planned.render.shows_volume = options.volume;
-        const std::vector<int> frames = frames_of(planned, options.frames);
-        const voxelume::DeviceInfo& info = api::inside(device).info();
-        check_tables(planned, info);
-        AssetStore meshes = api::assets_of(scene, options.cache);
-        make_choices(planned, meshes);
-        const std::vector<voxelume::Warning> warnings = scene_warnings(planned, frames, meshes);
-        find_potentially_visible(planned, frames, meshes);
-        const ImageBands bands = planned_bands(planned, frames, meshes, info);
-        planned = band_of(planned, bands, 0);
-        const auto progress = [&](size_t done) { options.progress(done, frames.size()); };
-        Plan result =
-            plan_for_callers(planned,
-                             plan_frames(planned, frames, meshes, info,
-                                         options.progress ? std::function<void(size_t)>(progress)
-                                                          : std::function<void(size_t)>()),
-                             frames.size(), info);
-        result.bands = bands.count;
-        result.band_rows = bands.rows;
-        result.warnings = api::warnings_for_callers(warnings);
-        return result;
+        api::apply_process_options();
+        return plan_on(scene, device_for_plans(selector), options);
     });
 }
 

@@ -65,6 +65,7 @@ struct Plan {
     int chosen_frames = 0;
     int bands = 1;      ///< bands of rows in which each image is rendered to files; 1: it is whole
     int band_rows = 0;  ///< rows of each but perhaps the last; estimates are for such an image
+    std::string device{};             ///< name of the device
     double min_bytes = 0;             ///< bytes of the device, at least
     double max_bytes = 0;             ///< bytes of the device, at most, for what the options want
     double device_bytes = 0;          ///< bytes of the device that can be used
@@ -99,6 +100,11 @@ struct PlanOptions {
 /// Throws Error as `Scene::load` does for values that are wrong at a frame, and Error::limit for
 /// lattices that can't be numbered at all. A scene that merely doesn't fit has a plan like others.
 Plan plan(const Scene& scene, const Device& device, const PlanOptions& options = {});
+
+/// Plans frames for the device that Device::open would open for `selector`, for `all` and `all/N`
+/// the first that Device::open_all would open. The device isn't opened if an earlier process kept
+/// what is to be known of it in the cache. Throws as Device::open and the other `plan` do.
+Plan plan(const Scene& scene, std::string_view selector, const PlanOptions& options = {});
 
 /// "1.5 GB": three digits at most.
 std::string bytes_text(double bytes);

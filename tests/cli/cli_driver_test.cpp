@@ -29,6 +29,7 @@ class CliDriverTest : public SceneProgramTest {
 
     /// The number of calls of a function by a command.
     long count(const std::string& function, const std::string& command) const {
+        std::filesystem::remove(folder / "counts");  // without calls none is written
         const ProgramResult result =
             with(fmt::format("LD_PRELOAD='{}' VXL_FAULT_COUNTS=counts", VXL_FAULTS), command);
         EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -145,6 +146,20 @@ TEST_F(CliDriverTest, SaysHowLongItCompilesKernels) {
     EXPECT_THAT(with("", "render scene.json -q -o a.exr --progress json").err,
                 testing::Not(HasSubstr("compiling")))
         << "they are kept";
+}
+
+TEST_F(CliDriverTest, IsLoadedOnceToCheckScenes) {
+    const auto opened = [&](const std::string& command) {
+        return count("clCreateContext", command);
+    };
+    EXPECT_GT(opened("check scene.json"), 0);
+    EXPECT_EQ(opened("check scene.json"), 0);
+    EXPECT_EQ(opened("render scene.json --dry-run -o a.exr"), 0);
+    EXPECT_GT(opened("check scene.json --device auto"), 0) << "another device may be meant";
+    const std::string before = with("", "check scene.json --json").out;
+    EXPECT_EQ(with("", "check scene.json --json").out, before);
+    EXPECT_THAT(with("VOXELUME_MEMORY_MB=1", "check scene.json").out, HasSubstr(" of 1.0 MB "));
+    EXPECT_EQ(with("VOXELUME_SELF_TEST=again", "check scene.json").exit_code, 0);
 }
 
 }  // namespace voxelume
