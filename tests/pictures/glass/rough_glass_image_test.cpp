@@ -44,6 +44,19 @@ TEST_P(RoughGlassBalls, AreInvisibleUnderAWhiteSky) {
     }
 }
 
+TEST(RoughGlassImage, OfAPaneReturnsAllLight) {
+    // Balls hold some paths along their rims for more bounces than there are; a pane doesn't.
+    for (const double roughness : {0.1, 0.4, 0.9}) {
+        Json scene = open_furnace(is_exhaustive() ? 4096 : 64);
+        scene["materials"]["frosted"] = rough_glass(roughness);
+        add_thing(scene, {{"shape", "box"}, {"size", {1.1, 1.1, 0.2}}, {"surface", "exact"}},
+                  "frosted", {0, 0, 0});
+        send_rays(scene, {0, 0, -0.55}, {0, 0, 1}, 0.5, 32);
+        expect_mean(estimate_of(channel_of(sense(scene), 1)), 1,
+                    fmt::format("roughness {}", roughness), 1e-4);
+    }
+}
+
 TEST(RoughGlassImage, OfNoRoughnessShowsWhatGlassShows) {
     // A checkered wall behind a ball of either kind of glass, whose facets are still 1/1024 wide.
     std::vector<Estimate> found;
