@@ -30,6 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint64_t kMaxFactsBytes = 1u << 20;
+constexpr uint64_t kMaxNameBytes = 1u << 16;  // of a file that names a driver
 constexpr const char* kFactsVersion = "voxelume device facts 1";
 
 DiskCache facts_store() {
@@ -70,6 +71,10 @@ std::string drivers_text() {
     std::string text = state_of(vendors) + state_of("/etc/ld.so.cache");
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(vendors, error)) {
+        const bool names_a_driver = entry.path().extension() == ".icd" &&
+                                    entry.is_regular_file(error) &&
+                                    entry.file_size(error) <= kMaxNameBytes;
+        if (!names_a_driver) continue;
         std::string library = text_of(entry.path());
         while (!library.empty() && std::isspace(static_cast<unsigned char>(library.back())) != 0)
             library.pop_back();
