@@ -74,7 +74,7 @@ void check_stream(const RenderCommand& options) {
 /// Refuses options that change no file: those of .png files where none is written, and those of
 /// .exr files likewise.
 void check_effects(const RenderCommand& options) {
-    if (options.plan_only || !options.volumes.empty()) return;
+    if (options.plan_only) return;
     const auto writes = [&](std::string_view ending) {
         return std::ranges::any_of(options.outputs, [&](const std::string& output) {
             return ending_of(output == "-" ? "-.png" : output) == ending;
@@ -83,7 +83,7 @@ void check_effects(const RenderCommand& options) {
     const RenderCommand usual;
     const auto refuse = [&](bool is_given, const char* option, const char* ending) {
         if (is_given && !writes(ending))
-            fail_usage("render: {} changes {} files, and -o names none: leave it out, or add one",
+            fail_usage("render: {} changes {} files, and -o names none: leave it out, or name one",
                        option, ending);
     };
     refuse(options.exposure != usual.exposure, "--exposure", ".png");
@@ -264,12 +264,12 @@ void check_options(const RenderCommand& options) {
     if (!options.earlier.empty() && options.outputs.empty())
         fail_usage("render: --continue adds samples to an image: name one by -o");
     check_stream(options);
-    check_effects(options);
     for (const std::string& pattern : options.outputs)
         if (!is_stream(pattern))
             for (const std::filesystem::path& file :
                  files_of_eyes(frame_path(pattern, first, animation), options.quilt))
                 check_image_output(file, "render");
+    check_effects(options);
     if (options.stats == "-")
         fail_usage("render: --stats-json -: statistics go to a file, not to standard output");
     if (!options.stats.empty()) check_output(options.stats, {}, "render");

@@ -2,6 +2,7 @@
 // A driver that computes something wrong isn't used, and the wrong result is reported.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -149,6 +150,7 @@ TEST_F(CliDriverTest, SaysHowLongItCompilesKernels) {
 }
 
 TEST_F(CliDriverTest, IsLoadedOnceToCheckScenes) {
+    if (std::getenv("OCL_ICD_VENDORS")) GTEST_SKIP() << "nothing is kept then";
     const auto opened = [&](const std::string& command) {
         return count("clCreateContext", command);
     };
@@ -160,6 +162,28 @@ TEST_F(CliDriverTest, IsLoadedOnceToCheckScenes) {
     EXPECT_EQ(with("", "check scene.json --json").out, before);
     EXPECT_THAT(with("VOXELUME_MEMORY_MB=1", "check scene.json").out, HasSubstr(" of 1.0 MB "));
     EXPECT_EQ(with("VOXELUME_SELF_TEST=again", "check scene.json").exit_code, 0);
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "cache" / "devices"))
+        if (entry.is_regular_file()) put_bytes(entry.path(), "damaged");
+    EXPECT_GT(opened("check scene.json"), 0);
+    EXPECT_EQ(opened("check scene.json"), 0);
+}
+
+TEST_F(CliDriverTest, IsAskedAgainWhereAProcessMayHaveOtherMemory) {
+    // PoCL takes the limit of a process's data for the size of its memory.
+    const auto checked = [&](const char* limit) {
+        return run_line(
+            fmt::format("sh -c '{} exec env VOXELUME_CACHE_DIR={}/cache "
+                        "VOXELUME_DEVICE=cpu voxelume check scene.json --json'",
+                        limit, folder.string()));
+    };
+    const ProgramResult limited = checked("ulimit -d 400000;"), whole = checked("");
+    ASSERT_EQ(limited.exit_code, 0) << limited.err;
+    ASSERT_EQ(whole.exit_code, 0) << whole.err;
+    const auto memory = [](const ProgramResult& result) {
+        return Json::parse(result.out)["device MB"].get<double>();
+    };
+    EXPECT_LT(memory(limited), 450);
+    EXPECT_GT(memory(whole), 450);
 }
 
 }  // namespace voxelume

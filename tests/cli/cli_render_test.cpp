@@ -73,6 +73,8 @@ TEST_F(CliRenderTest, OptionsThatChangeNoFileAreRefused) {
             << of_exr;
         EXPECT_EQ(run(fmt::format("render scene.json -q -o -.exr {}", of_exr)).exit_code, 0)
             << of_exr;
+        EXPECT_EQ(run(fmt::format("render scene.json -q --volume v.nrrd {}", of_exr)).exit_code, 2)
+            << of_exr;
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
 }

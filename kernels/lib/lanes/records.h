@@ -3,8 +3,8 @@
 //
 // Eight gathers would touch every place eight times. Instead each lane's words are one load, and
 // the square of words is transposed in three rounds, each of whose steps is one instruction of a
-// processor with vectors of 512 bits. The words of a step are named one by one, because LLVM 14
-// makes three or four instructions of a step that names them by twos or fours.
+// processor with vectors of 512 bits. The words of a step are named one by one, because LLVM makes
+// three or four instructions of a step that names them by twos or fours.
 #ifndef VXL_RECORDS_H
 #define VXL_RECORDS_H
 

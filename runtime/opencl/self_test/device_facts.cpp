@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/opencl/self_test/device_facts.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <sched.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/base/files/disk_cache.hpp"
-#include "runtime/base/files/producer_hash.hpp"
+#include "runtime/base/main_memory.hpp"
 #include "runtime/opencl/device_settings.hpp"
 #include "runtime/opencl/platforms.hpp"
 #include "runtime/opencl/selector.hpp"
@@ -64,26 +69,51 @@ std::string text_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The files that name drivers, with their contents, and the libraries that they name by paths.
+/// True if the loader looks for drivers in other places than the system's.
+bool has_drivers_of_its_own() {
+    constexpr std::array kNames = {"OCL_ICD_VENDORS", "OCL_ICD_FILENAMES", "OPENCL_VENDOR_PATH",
+                                   "LD_LIBRARY_PATH"};
+    return std::ranges::any_of(kNames, [](const char* name) {
+        const char* const value = std::getenv(name);
+        return value != nullptr && *value != '\0';
+    });
+}
+
+/// A library that a driver's file names, by a path or as one of the system's.
+std::string library_text(const std::string& library) {
+    if (library.find('/') != library.npos) return state_of(library);
+    std::string text;
+    for (const char* const folder :
+         {"/lib", "/lib64", "/lib/x86_64-linux-gnu", "/usr/local/lib", "/lib/aarch64-linux-gnu"})
+        text += state_of(fs::path(folder) / library);
+    return text;
+}
+
+/// The files that name the system's drivers, with their contents and libraries, and the state of
+/// all packages.
 std::string drivers_text() {
-    const char* const folder = std::getenv("OCL_ICD_VENDORS");
-    const fs::path vendors = folder != nullptr && *folder != '\0' ? folder : "/etc/OpenCL/vendors";
-    std::string text = state_of(vendors) + state_of("/etc/ld.so.cache");
+    const fs::path vendors = "/etc/OpenCL/vendors";
+    std::vector<fs::path> files;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(vendors, error)) {
         const bool names_a_driver = entry.path().extension() == ".icd" &&
                                     entry.is_regular_file(error) &&
                                     entry.file_size(error) <= kMaxNameBytes;
-        if (!names_a_driver) continue;
-        std::string library = text_of(entry.path());
+        if (names_a_driver) files.push_back(entry.path());
+    }
+    std::ranges::sort(files);
+    std::string text = state_of(vendors) + state_of("/etc/ld.so.cache") +
+                       state_of("/var/lib/dpkg/status") + state_of("/var/lib/rpm/rpmdb.sqlite");
+    for (const fs::path& file : files) {
+        std::string library = text_of(file);
         while (!library.empty() && std::isspace(static_cast<unsigned char>(library.back())) != 0)
             library.pop_back();
-        text += state_of(entry.path()) + library + "\n" + state_of(library);
+        text += state_of(file) + library + "\n" + library_text(library);
     }
     return text;
 }
 
-/// The cards that the kernel of the machine offers.
+/// The cards that the kernel of the machine offers, and whether this process may use them.
 std::string cards_text() {
     std::vector<std::string> names;
     std::error_code error;
@@ -91,10 +121,21 @@ std::string cards_text() {
         for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
             const std::string name = entry.path().filename().string();
             if (name.starts_with("nvidia") || name.starts_with("kfd") || name.starts_with("render"))
-                names.push_back(name);
+                names.push_back(name +
+                                (access(entry.path().c_str(), R_OK | W_OK) == 0 ? "+" : "-"));
         }
     std::ranges::sort(names);
     return fmt::format("{}", fmt::join(names, "\n"));
+}
+
+/// The limits that drivers take for the size of memory.
+std::string limits_text() {
+    std::string text;
+    for (const auto limit : {RLIMIT_DATA, RLIMIT_AS}) {
+        struct rlimit value {};
+        if (getrlimit(limit, &value) == 0) text += fmt::format("{} ", value.rlim_cur);
+    }
+    return text;
 }
 
 /// The processors that this process may use.
@@ -107,16 +148,26 @@ std::string processors_text() {
     return text;
 }
 
+/// The file that this code is in: another version may choose and describe devices otherwise.
+std::string program_text() {
+    Dl_info self{};
+    const bool is_found = dladdr(reinterpret_cast<const void*>(&device_for_plans), &self) != 0;
+    return state_of("/proc/self/exe") +
+           (is_found && self.dli_fname != nullptr ? state_of(self.dli_fname) : std::string());
+}
+
 std::string facts_key(const std::string& selector) {
     const std::string environment = environment_text(), drivers = drivers_text();
     const std::string cards = cards_text(), processors = processors_text();
+    const std::string limits = limits_text(), program = program_text();
     const std::string boot = text_of("/proc/sys/kernel/random/boot_id");
-    const std::string_view parts[] = {kFactsVersion, producer_hash(), selector,   environment,
-                                      drivers,       cards,           processors, boot};
+    const std::string_view parts[] = {kFactsVersion, program,    selector, environment, drivers,
+                                      cards,         processors, limits,   boot};
     return cache_key(parts);
 }
 
-/// The facts as lines of text; empty if one of them has several lines.
+/// The facts as lines of text; empty if one of them has several lines. `unusable` isn't among them,
+/// since only devices that were opened are kept.
 std::string to_text(const DeviceInfo& info) {
     const std::string text =
         fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n", info.index,
@@ -200,16 +251,31 @@ void keep_facts(const DiskCache& store, const std::string& key, const DeviceInfo
 
 }  // namespace
 
-DeviceInfo device_for_plans(std::string_view selector) {
-    const std::string wanted = selector_or_default(selector);
-    if (parts_of_all(wanted) > 0) return Device::open_all(wanted).front().info();
+namespace {
+
+/// The facts of the device that a selector names, kept or found.
+DeviceInfo facts_of(const std::string& selector, const std::string& key) {
+    if (parts_of_all(selector) > 0) return Device::open_all(selector).front().info();
+    if (has_drivers_of_its_own()) return Device::open(selector).info();
     const DiskCache store = facts_store();
-    const std::string key = facts_key(wanted);
     if (std::optional<DeviceInfo> info = kept_facts(store, key)) return *info;
-    DeviceInfo opened = Device::open(wanted).info();
+    DeviceInfo opened = Device::open(selector).info();
     for (const Candidate& candidate : find_candidates())
         if (candidate.info.index == opened.index) keep_facts(store, key, candidate.info);
     return opened;
+}
+
+}  // namespace
+
+DeviceInfo device_for_plans(std::string_view selector) {
+    static std::mutex mutex;
+    static std::map<std::string, DeviceInfo> found;
+    const std::string wanted = selector_or_default(selector), key = facts_key(wanted);
+    const std::string here = fmt::format("{} {} {}", key, main_memory(), chosen_memory_limit());
+    const std::lock_guard lock(mutex);
+    const auto known = found.find(here);
+    if (known != found.end()) return known->second;
+    return found[here] = facts_of(wanted, key);
 }
 
 }  // namespace voxelume
