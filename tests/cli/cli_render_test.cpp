@@ -58,27 +58,6 @@ TEST_F(CliRenderTest, AFileHasTheChannelsThatAreAskedFor) {
                 HasSubstr("\"Q\" is none of"));
 }
 
-TEST_F(CliRenderTest, OptionsThatChangeNoFileAreRefused) {
-    for (const char* of_png : {"--exposure 1", "--view-transform agx", "--png-bits 16"}) {
-        EXPECT_THAT(expect_failure(2, fmt::format("render scene.json -o a.exr {}", of_png)),
-                    HasSubstr("changes .png files, and -o names none"))
-            << of_png;
-        EXPECT_EQ(run(fmt::format("render scene.json -q -o a.exr -o b.PNG {}", of_png)).exit_code,
-                  0)
-            << of_png;
-    }
-    for (const char* of_exr : {"--float", "--multi-part", "--channels RGBA,Z"}) {
-        EXPECT_THAT(expect_failure(2, fmt::format("render scene.json -o - {}", of_exr)),
-                    HasSubstr("changes .exr files, and -o names none"))
-            << of_exr;
-        EXPECT_EQ(run(fmt::format("render scene.json -q -o -.exr {}", of_exr)).exit_code, 0)
-            << of_exr;
-        EXPECT_EQ(run(fmt::format("render scene.json -q --volume v.nrrd {}", of_exr)).exit_code, 2)
-            << of_exr;
-    }
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
-}
-
 TEST_F(CliRenderTest, AVolumeAlongsideAFileWithoutColorIsPlannedAndMadeWithAllItNeeds) {
     const std::string both = "render scene.json -o z.exr --volume v.nrrd --channels ";
     EXPECT_EQ(run(both + "Z --dry-run").out, run(both + "RGBA,Z --dry-run").out);

@@ -2,6 +2,7 @@
 // Scenes from standard input, images to standard output, parts of images, and progress.
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <sstream>
 
 #include "runtime/io/image/exr.hpp"
@@ -88,6 +89,27 @@ TEST_F(CliStreamTest, StandardOutputTakesOneImageAlone) {
                              "render scene.json -o - --views 2"})
         EXPECT_THAT(expect_failure(2, line), HasSubstr("standard output")) << line;
     EXPECT_EQ(run_line("sh -c 'voxelume render scene.json -q -o - >/dev/full'").exit_code, 5);
+}
+
+TEST_F(CliStreamTest, OptionsThatChangeNoFileAreRefused) {
+    for (const char* of_png : {"--exposure 1", "--view-transform agx", "--png-bits 16"}) {
+        EXPECT_THAT(expect_failure(2, fmt::format("render scene.json -o a.exr {}", of_png)),
+                    HasSubstr("changes .png files, and -o names none"))
+            << of_png;
+        EXPECT_EQ(run(fmt::format("render scene.json -q -o a.exr -o b.PNG {}", of_png)).exit_code,
+                  0)
+            << of_png;
+    }
+    for (const char* of_exr : {"--float", "--multi-part", "--channels RGBA,Z"}) {
+        EXPECT_THAT(expect_failure(2, fmt::format("render scene.json -o - {}", of_exr)),
+                    HasSubstr("changes .exr files, and -o names none"))
+            << of_exr;
+        EXPECT_EQ(run(fmt::format("render scene.json -q -o -.exr {}", of_exr)).exit_code, 0)
+            << of_exr;
+        EXPECT_EQ(run(fmt::format("render scene.json -q --volume v.nrrd {}", of_exr)).exit_code, 2)
+            << of_exr;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
 }
 
 TEST_F(CliStreamTest, ACroppedImageHasTheBitsOfTheWholeOne) {
