@@ -249,10 +249,6 @@ void keep_facts(const DiskCache& store, const std::string& key, const DeviceInfo
     if (!text.empty()) store.write(key, text);
 }
 
-}  // namespace
-
-namespace {
-
 /// The facts of the device that a selector names, kept or found.
 DeviceInfo facts_of(const std::string& selector, const std::string& key) {
     if (parts_of_all(selector) > 0) return Device::open_all(selector).front().info();
