@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
@@ -69,14 +68,15 @@ std::string text_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// True if the loader looks for drivers in other places than the system's.
+bool is_set(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value != nullptr && *value != '\0';
+}
+
+/// True if drivers or their libraries may be looked for in other places than the system's.
 bool has_drivers_of_its_own() {
-    constexpr std::array kNames = {"OCL_ICD_VENDORS", "OCL_ICD_FILENAMES", "OPENCL_VENDOR_PATH",
-                                   "LD_LIBRARY_PATH"};
-    return std::ranges::any_of(kNames, [](const char* name) {
-        const char* const value = std::getenv(name);
-        return value != nullptr && *value != '\0';
-    });
+    return is_set("OCL_ICD_VENDORS") || is_set("OCL_ICD_FILENAMES") ||
+           is_set("OPENCL_VENDOR_PATH") || is_set("LD_LIBRARY_PATH");
 }
 
 /// A library that a driver's file names, by a path or as one of the system's.
