@@ -212,6 +212,20 @@ std::string with(std::string text,
     return text;
 }
 
+/// So many lights of both kinds that surfaces and points of the medium choose among them.
+std::string many_lights() {
+    std::string lights = "\"lights\": [";
+    for (int i = 0; i < 9; ++i) {
+        const int x = 8 * i - 32;
+        lights += fmt::format(
+            R"({{"type": "point", "position": [{}e-2, 0.9, 0.2], "intensity": 0.05}},
+            {{"type": "disk", "position": [{}e-2, 0.8, -0.2], "direction": [0, -1, 0],
+              "radius": 0.02, "intensity": 0.1}}, )",
+            x, x);
+    }
+    return lights;
+}
+
 std::string lattice(const char* material, const char* layout, const char* visibility,
                     const char* fog) {
     return with(
@@ -231,7 +245,13 @@ std::vector<KnownPicture> known_pictures() {
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
-         false, "7051d1b4bb16561d"},
+         false, "3e61fa889129ed77"},
+        {"many lights",
+         with(kLocal, {{"LIGHT", "global"},
+                       {"\"shadow\": \"filtered\",", ""},
+                       {"\"medium\": {", kMist},
+                       {"\"lights\": [", many_lights().c_str()}}),
+         false, "7a6fa870e14a0fb1"},
         {"meshes", kMeshes, false, "9bc19e96b72b2350"},
         {"mixed meshes", kMixed, false, "791a11d119da55c7"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},

@@ -249,7 +249,7 @@ TEST_F(CliWarningsTest, SayOnceThatTheCacheCannotBeWrittenToTheSuperuser) {
     if (run_line(mount + "true'").exit_code != 0) GTEST_SKIP() << "nothing can be mounted here";
     is_told_once(mount + "VOXELUME_CACHE_DIR=fixed " + render + "'", "Read-only file system");
     is_told_once(
-        "unshare -m sh -c 'mount -t tmpfs -o size=100k none fixed && "
+        "unshare -m sh -c 'mount -t tmpfs -o size=220k none fixed && "
         "VOXELUME_CACHE_DIR=fixed voxelume check scene.json'",
         "its disk has only 0.1 MB left");
 }
