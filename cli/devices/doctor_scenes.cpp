@@ -212,7 +212,8 @@ std::string with(std::string text,
     return text;
 }
 
-/// So many lights of both kinds that surfaces and points of the medium choose among them.
+/// Returns the first words of a scene's lights, and eighteen lights: surfaces and points of the
+/// medium choose among more than eight of a kind.
 std::string many_lights() {
     std::string lights = "\"lights\": [";
     for (int i = 0; i < 9; ++i) {

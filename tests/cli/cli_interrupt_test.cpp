@@ -110,9 +110,8 @@ TEST_F(CliInterruptTest, ACommandThatEndsMeanwhileLeavesNothingEither) {
 
 TEST_F(CliInterruptTest, AnIgnoredSignalStaysIgnored) {
     const ProgramResult result = run_line(
-        "sh -c 'trap \"\" INT; voxelume render scene.json -q -o a.png --size 1000x1000 --samples "
-        "16 "
-        "& sleep 0.3; kill -INT $! && wait $!'");
+        "sh -c 'trap \"\" INT; voxelume render scene.json -q -o a.png --size 1000x1000 "
+        "--samples 16 & sleep 0.3; kill -INT $! && wait $!'");
     EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
