@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <draco/compression/decode.h>
+#include <draco/compression/point_cloud/point_cloud_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
 #include <fmt/format.h>
 
 #include <cstring>
@@ -14,12 +17,41 @@ namespace {
     throw std::runtime_error(clause);
 }
 
-std::unique_ptr<draco::Mesh> mesh_of(std::span<const uint8_t> input) {
+/// The number of faces that the data declare. The library takes memory for them before it reads
+/// any, so data that declare more than glTF's accessors have room for are refused before.
+uint32_t declared_faces(draco::DecoderBuffer buffer) {
+    draco::DracoHeader header{};
+    if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok() ||
+        header.encoder_type != draco::TRIANGULAR_MESH)
+        refuse("its Draco data aren't those of a mesh; the file is damaged");
+    if (header.version_major != draco::kDracoMeshBitstreamVersionMajor ||
+        header.version_minor != draco::kDracoMeshBitstreamVersionMinor)
+        refuse(fmt::format(
+            "its Draco data have version {}.{}, and glTF's have {}.{}; compress the "
+            "model again",
+            header.version_major, header.version_minor, draco::kDracoMeshBitstreamVersionMajor,
+            draco::kDracoMeshBitstreamVersionMinor));
+    buffer.set_bitstream_version(draco::kDracoMeshBitstreamVersion);
+    draco::GeometryMetadata metadata;
+    bool is_read = !(header.flags & METADATA_FLAG_MASK) ||
+                   draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata);
+    uint32_t faces = 0;
+    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
+        uint8_t traversal = 0;
+        uint32_t vertices = 0;
+        is_read = is_read && buffer.Decode(&traversal) && draco::DecodeVarint(&vertices, &buffer);
+    }
+    is_read = is_read && draco::DecodeVarint(&faces, &buffer);
+    if (!is_read) refuse("its Draco data end early; the file is damaged");
+    return faces;
+}
+
+std::unique_ptr<draco::Mesh> mesh_of(const CodecTask& task, std::span<const uint8_t> input) {
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(input.data()), input.size());
-    const auto type = draco::Decoder::GetEncodedGeometryType(&buffer);
-    if (!type.ok() || type.value() != draco::TRIANGULAR_MESH)
-        refuse("its Draco data aren't those of a mesh; the file is damaged");
+    if (const uint64_t indices = uint64_t{declared_faces(buffer)} * 3; indices > task.indices)
+        refuse(fmt::format("its Draco data have {} indices, and its accessor {}", indices,
+                           task.indices));
     draco::Decoder decoder;
     auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
     if (!mesh.ok())
@@ -85,7 +117,7 @@ std::vector<uint8_t> values_of(const draco::Mesh& mesh, const DracoAttribute& wa
 }  // namespace
 
 CodecArrays decode_draco(const CodecTask& task, std::span<const uint8_t> input) {
-    const std::unique_ptr<draco::Mesh> mesh = mesh_of(input);
+    const std::unique_ptr<draco::Mesh> mesh = mesh_of(task, input);
     if (mesh->num_points() != task.count || uint64_t{mesh->num_faces()} * 3 > task.indices)
         refuse(fmt::format(
             "its Draco data have {} vertices and {} indices, and its accessors {} "
