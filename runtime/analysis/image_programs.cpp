@@ -79,9 +79,9 @@ constexpr KernelRow kKernels[] = {
 /// True for images that one call of the stages makes.
 bool is_made_at_once(const Scene& scene) {
     const RenderSettings& render = scene.render;
-    return render.shows_image && render.channels.color && !render.channels.has_passes() &&
-           !render.channels.variance && !render.noise.is_given() && !is_adaptive(render) &&
-           !adds_samples(render) && scene.observer.shutter == 0;
+    return render.shows_image && !render.channels.has_passes() && !render.channels.variance &&
+           !render.noise.is_given() && !is_adaptive(render) && !adds_samples(render) &&
+           scene.observer.shutter == 0;
 }
 
 /// True if two boxes overlap like those of a floor and an object on it: along two axes one lies

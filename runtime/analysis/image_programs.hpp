@@ -30,7 +30,8 @@ struct ForeseenImage {
 /// passes, with a target of noise, adaptively, or of several moments.
 ForeseenImage foreseen_image(const Scene& scene, const Pyramid& world);
 
-/// Compiles the foreseen programs while the world is built; see Program::foresee.
+/// Compiles the foreseen programs, or makes compiled ones ready, while the world is built; see
+/// Program::foresee.
 void compile_ahead(const Device& device, const RenderSettings& render, const ForeseenImage& image);
 
 }  // namespace voxelume

@@ -69,4 +69,22 @@ std::shared_future<BuiltProgram> KernelBuilds::start(const CompilerTarget& targe
     return build;
 }
 
+void KernelBuilds::begin(const std::string& key, std::function<BuiltProgram()> build) {
+    const std::lock_guard lock(mutex_);
+    std::future<BuiltProgram>& begun = begun_[key];
+    if (!begun.valid()) begun = std::async(std::launch::async, std::move(build));
+}
+
+std::optional<BuiltProgram> KernelBuilds::take(const std::string& key) {
+    std::future<BuiltProgram> begun;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = begun_.find(key);
+        if (found == begun_.end()) return std::nullopt;
+        begun = std::move(found->second);
+        begun_.erase(found);
+    }
+    return begun.get();
+}
+
 }  // namespace voxelume

@@ -6,10 +6,12 @@
 // aren't compiled, and those that several scenes share only once.
 #pragma once
 
+#include <functional>
 #include <future>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "runtime/opencl/program_cache.hpp"
@@ -48,7 +50,8 @@ struct ProgramParts {
     std::map<std::string, KernelPart> kernels;
 };
 
-/// The kernels of a context that are compiled or being compiled.
+/// The kernels of a context that are compiled or being compiled, and programs that are made ready
+/// before they are needed.
 class KernelBuilds {
   public:
     /// The parts of the program with this key, a source and options.
@@ -60,10 +63,19 @@ class KernelBuilds {
     std::shared_future<BuiltProgram> start(const CompilerTarget& target, const std::string& label,
                                            const KernelPart& part, const ProgramText& whole);
 
+    /// Runs `build`, which makes the program with this key, in another thread, unless that was
+    /// begun before.
+    void begin(const std::string& key, std::function<BuiltProgram()> build);
+
+    /// Waits for the program of `begin` with this key, which is begun anew by the next call of it.
+    /// Empty if none was begun. Throws what `build` threw.
+    std::optional<BuiltProgram> take(const std::string& key);
+
   private:
     std::mutex mutex_;
     std::map<std::string, std::shared_ptr<const ProgramParts>> parts_;
     std::map<std::string, std::shared_future<BuiltProgram>> builds_;
+    std::map<std::string, std::future<BuiltProgram>> begun_;
 };
 
 }  // namespace voxelume

@@ -225,7 +225,8 @@ void Program::build_together(const Device& device, std::span<const ProgramFile> 
 }
 
 void Program::foresee(const Device& device, const ForeseenProgram& program) {
-    if (program.files.empty() || !is_compiled_ahead(device.info())) return;
+    if (program.files.empty() || device.is_counting() || compiles_kernels_alone(device.info()))
+        return;
     for (const char* file : program.files) {
         const KernelSource& source = kernel_source(file);
         const auto locked = device.lock();
@@ -237,7 +238,7 @@ void Program::foresee(const Device& device, const ForeseenProgram& program) {
         label_of(program.files), source.text(), build_options(device, source, program.defines), {}};
     for (const ForeseenKernel& kernel : program.kernels)
         job.kernels.push_back({kernel.name, group_size(device, kernel.work)});
-    compile_ahead(device.info(), std::move(job));
+    build_ahead(device, std::move(job));
 }
 
 Program Program::from_text(const Device& device, const std::string& source,

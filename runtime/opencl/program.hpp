@@ -180,8 +180,9 @@ class Program {
     /// change another file.
     static void build_together(const Device& device, std::span<const ProgramFile> files);
 
-    /// Lets helper processes compile a program that will be built later, if KernelCompilers is
-    /// allowed any and PoCL compiles kernels.
+    /// Makes a program that will be built later ready in another thread if an earlier run compiled
+    /// it. If none did, lets helper processes compile it, where KernelCompilers is allowed any and
+    /// PoCL compiles kernels.
     static void foresee(const Device& device, const ForeseenProgram& program);
 
     /// Compiles `source`, a text that may include kernels/ files. Used by tests of device

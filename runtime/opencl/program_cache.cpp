@@ -118,23 +118,32 @@ std::optional<cl::Program> from_binary(const CompilerTarget& target, const std::
 }
 
 /// Builds with PoCL, which keeps its own files.
-cl::Program build_in_pocl_folder(const Device& device, const std::string& label,
-                                 const ProgramText& text) {
-    cl::Program program;
-    const std::string key = key_of(device.info(), "program", text);
+BuiltProgram build_in_pocl_folder(const CompilerTarget& target, const std::string& label,
+                                  const ProgramText& text) {
+    BuiltProgram built;
+    const std::string key = key_of(target.info, "program", text);
     const bool was_compiled_ahead = KernelCompilers::instance().await(key);
     const bool ready = PoclFolder::instance().build_with_files(
-        program_store(), key, [&] { return parts_of(device.info(), text); },
-        [&] { program = compile_declared(compiler_target(device), label, text); });
-    if (ready && !was_compiled_ahead) ++device.counters().programs_from_cache;
-    return program;
+        program_store(), key, [&] { return parts_of(target.info, text); },
+        [&] {
+            built.program =
+                std::make_shared<const cl::Program>(compile_declared(target, label, text));
+        });
+    built.is_from_cache = ready && !was_compiled_ahead;
+    return built;
 }
 
-/// Builds with an ordinary driver, and counts whether the program came from the cache.
-cl::Program build_noted(const Device& device, const std::string& label, const ProgramText& text) {
-    const BuiltProgram built = build_with_binary(compiler_target(device), label, text);
-    device.counters().programs_from_cache += uint64_t(built.is_from_cache);
-    return *built.program;
+BuiltProgram build(const CompilerTarget& target, const std::string& label,
+                   const ProgramText& text) {
+    switch (driver_quirks(target.info.platform).keeping) {
+        case ProgramKeeping::pocl_folder:
+            return build_in_pocl_folder(target, label, text);
+        case ProgramKeeping::none:
+            return {std::make_shared<const cl::Program>(compile_declared(target, label, text))};
+        case ProgramKeeping::binaries:
+            break;
+    }
+    return build_with_binary(target, label, text);
 }
 
 }  // namespace
@@ -158,10 +167,16 @@ bool is_program_kept(const DeviceInfo& info, const ProgramText& text) {
     return program_store().read(key_of(info, "program", text)).has_value();
 }
 
-void compile_ahead(const DeviceInfo& info, CompileJob job) {
+void build_ahead(const Device& device, CompileJob job) {
+    const DeviceInfo& info = device.info();
     const std::string key = key_of(info, "program", {job.source, job.options});
-    if (!is_compiled_ahead(info) || program_store().read(key)) return;
-    if (prepare_to_compile(info)) KernelCompilers::instance().add({std::move(job), key});
+    if (program_store().read(key)) {
+        device.kernel_builds().begin(key, [target = compiler_target(device), job = std::move(job)] {
+            return build(target, job.label, {job.source, job.options});
+        });
+    } else if (prepare_to_compile(info)) {
+        KernelCompilers::instance().add({std::move(job), key});
+    }
 }
 
 bool compiles_kernels_alone(const DeviceInfo& info) {
@@ -202,31 +217,25 @@ BuiltProgram build_with_binary(const CompilerTarget& target, const std::string& 
 
 cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text) {
     const auto start = std::chrono::steady_clock::now();
-    const uint64_t from_cache = device.counters().programs_from_cache;
-    cl::Program program;
+    BuiltProgram built;
     try {
-        switch (driver_quirks(device.info().platform).keeping) {
-            case ProgramKeeping::binaries:
-                program = build_noted(device, label, text);
-                break;
-            case ProgramKeeping::pocl_folder:
-                program = build_in_pocl_folder(device, label, text);
-                break;
-            case ProgramKeeping::none:
-                program = compile_declared(compiler_target(device), label, text);
-                break;
-        }
+        auto begun = device.kernel_builds().take(key_of(device.info(), "program", text));
+        built = begun ? std::move(*begun) : build(compiler_target(device), label, text);
     } catch (const Error& error) {
         throw Error(ErrorKind::build, "{} does not compile on \"{}\": {}", label,
                     device.info().name, error.what());
     } catch (const cl::Error& error) {
         throw_device_error(error, device.info(), "compiling " + label);
     }
-    ++device.counters().programs_built;
-    if (device.counters().programs_from_cache == from_cache) device.note_fresh(program);
-    device.counters().build_ms +=
+    DeviceCounters& counters = device.counters();
+    ++counters.programs_built;
+    if (built.is_from_cache)
+        ++counters.programs_from_cache;
+    else
+        device.note_fresh(*built.program);
+    counters.build_ms +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    return program;
+    return *built.program;
 }
 
 std::vector<std::string> program_sources(const Device& device) {

@@ -39,9 +39,9 @@ bool prepare_to_compile(const DeviceInfo& info);
 /// True if the cache has a program.
 bool is_program_kept(const DeviceInfo& info, const ProgramText& text);
 
-/// Lets a helper compile a program and its kernels into the cache, unless the cache has the
-/// program.
-void compile_ahead(const DeviceInfo& info, CompileJob job);
+/// Makes a program of the cache ready in another thread, for build_program to take. If the cache
+/// lacks it, lets a helper compile it and its kernels into the cache.
+void build_ahead(const Device& device, CompileJob job);
 
 /// True for GPUs, whose drivers compile kernels when their program is built: then each is compiled
 /// alone, see kernel_builds.hpp. Intel's driver for CPUs compiles one program at a time, and takes

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <stdexcept>
+#include <thread>
 
 #include "runtime/base/error.hpp"
 #include "tests/support/file_fixture.hpp"
@@ -57,6 +59,24 @@ TEST_F(KernelBuildsTest, CompileAKernelOnceAndKeepIt) {
     EXPECT_EQ(built(builds, "first", kTwo).program, once.program);
     EXPECT_NE(built(builds, "second", kTwo).program, once.program);
     EXPECT_TRUE(built(later, "first", kTwo).is_from_cache);
+}
+
+TEST_F(KernelBuildsTest, ThatAreBegunAreMadeOnceInAnotherThreadAndTakenOnce) {
+    KernelBuilds builds;
+    EXPECT_FALSE(builds.take("a"));
+    std::thread::id maker;
+    builds.begin("a", [&] {
+        maker = std::this_thread::get_id();
+        return BuiltProgram{nullptr, true};
+    });
+    builds.begin("a", []() -> BuiltProgram { throw std::logic_error("begun twice"); });
+    const std::optional<BuiltProgram> made = builds.take("a");
+    ASSERT_TRUE(made);
+    EXPECT_TRUE(made->is_from_cache);
+    EXPECT_NE(maker, std::this_thread::get_id());
+    EXPECT_FALSE(builds.take("a"));
+    builds.begin("a", []() -> BuiltProgram { throw Error(ErrorKind::build, "wrong"); });
+    EXPECT_THROW(builds.take("a"), Error);
 }
 
 TEST_F(KernelBuildsTest, TakeTheWholeProgramWhereAKernelDoesNotCompileAlone) {

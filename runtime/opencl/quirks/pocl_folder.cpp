@@ -83,6 +83,14 @@ std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
     return paths;
 }
 
+/// The folder of the program that files belong to, which PoCL names by two letters and the rest of
+/// a hash; empty if there are no such files.
+fs::path program_of(const std::vector<fs::path>& files) {
+    if (files.empty() || std::distance(files[0].begin(), files[0].end()) < 3) return {};
+    const auto letters = files[0].begin();
+    return *letters / *std::next(letters);
+}
+
 /// The only folder that is in `after` but not in `before`; empty if there is none or more than one.
 fs::path only_new(const std::set<fs::path>& before, const std::set<fs::path>& after) {
     std::vector<fs::path> found;
@@ -172,12 +180,15 @@ std::set<fs::path> PoclFolder::built_folders() const {
     return built;
 }
 
-/// Restores the kernels of the program's parts that were compiled for other programs.
+/// Restores the kernels of the program's parts that were compiled for other programs, except those
+/// that it has restored.
 void PoclFolder::take_kernels(const DiskCache& cache, ProgramFiles& program) const {
     try {
-        for (ProgramPart& part : program.parts)
+        for (ProgramPart& part : program.parts) {
+            if (part.published > 0) continue;
             if (const auto bytes = cache.read(part.key))
                 part.published = unpack(folder_ / program.folder, *bytes).size();
+        }
     } catch (const std::exception&) {
         return;  // the disk is full by now: PoCL compiles the missing files
     }
@@ -191,23 +202,30 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
         build();
         return !folder_.empty();
     }
-    // Finding the parts takes tens of milliseconds, and so does reading the program's files.
-    auto found_parts = std::async(std::launch::async | std::launch::deferred, parts);
     std::vector<fs::path> unpacked;
     try {
         if (const auto bytes = turn_.read(cache, key)) unpacked = unpack(folder_, *bytes);
     } catch (const std::exception&) {
         unpacked.clear();  // the disk is full by now: PoCL compiles the missing files
     }
+    // Finding the parts and reading kernels takes tens of milliseconds, and so does building.
+    auto restoring = std::async(std::launch::async | std::launch::deferred, [&] {
+        ProgramFiles program = {program_of(unpacked), 0, parts()};
+        if (!program.folder.empty()) take_kernels(cache, program);
+        return program;
+    });
     const std::set<fs::path> before = built_folders();
     build();
-    // An entry for a folder other than PoCL's is useless and gets replaced.
     const fs::path folder = only_new(before, built_folders());
-    if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
+    ProgramFiles program = restoring.get();
+    if (folder != program.folder) {
+        // An entry for a folder other than PoCL's is useless and gets replaced.
         unpacked.clear();
-    ProgramFiles program = {folder, unpacked.size(), {}};
+        program.folder = folder;
+        for (ProgramPart& part : program.parts) part.published = 0;
+    }
+    if (folder.empty()) program.parts.clear();
     if (!folder.empty()) {
-        program.parts = found_parts.get();
         publish_changes(cache);  // includes kernels that this process compiled
         take_kernels(cache, program);
         if (!unpacked.empty())
