@@ -105,6 +105,9 @@ class PngEncoder {
         // 1.12 times on the pictures of scenes/pictures.
         check(spng_set_option(context_.get(), SPNG_FILTER_CHOICE,
                               SPNG_FILTER_CHOICE_SUB | SPNG_FILTER_CHOICE_UP));
+        // Level 2 takes 0.4 to 0.75 of the time of level 6, and files are 0.98 to 1.12 times as
+        // large: noise is compressed no better by more.
+        check(spng_set_option(context_.get(), SPNG_IMG_COMPRESSION_LEVEL, 2));
         put_meaning(options.view_transform);
         if (options.pixel_aspect != 1) put_aspect(options.pixel_aspect);
         put_stamp();
