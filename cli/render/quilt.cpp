@@ -2,6 +2,7 @@
 #include "cli/render/quilt.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
@@ -12,8 +13,10 @@
 #include "cli/render/frame_files.hpp"
 #include "cli/render/render_job.hpp"
 #include "cli/render/render_progress.hpp"
+#include "cli/render/render_report.hpp"
 #include "cli/shared/checks.hpp"
 #include "cli/shared/interrupt.hpp"
+#include "cli/shared/scene_options.hpp"
 #include "cli/shared/tell.hpp"
 #include "cli/shared/warnings.hpp"
 
@@ -21,6 +24,10 @@ namespace voxelume::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 /// The option that asks for a quilt or a stereo pair.
 const char* option_of(const QuiltChoices& choices) {
@@ -48,12 +55,10 @@ Quilt quilt_of(const QuiltChoices& choices) {
 }
 
 void refuse_others(const RenderCommand& command) {
-    const std::array<std::pair<const char*, bool>, 5> others = {
+    const std::array<std::pair<const char*, bool>, 3> others = {
         {{"--volume", !command.volumes.empty()},
          {"--crop", !command.crop.empty()},
-         {"--shard", !command.shard.empty()},
-         {"--stats-json", !command.stats.empty()},
-         {"--dry-run", command.plan_only}}};
+         {"--shard", !command.shard.empty()}}};
     for (const auto& [name, is_given] : others)
         if (is_given)
             fail_usage("render: {}: {} can't be had of {} yet", option_of(command.quilt), name,
@@ -71,20 +76,39 @@ fs::path named(const fs::path& file, const std::string& suffix) {
     return file.parent_path() / (stem + suffix + file.extension().string());
 }
 
-/// Writes a frame's views to its files: all side by side or, where a name distinguishes eyes, each
-/// to its own file. Returns the files.
-std::vector<fs::path> write_views(const std::vector<Image>& views, const Quilt& quilt,
-                                  const std::vector<fs::path>& names, const QuiltChoices& choices,
-                                  const ImageFileOptions& options) {
-    std::vector<fs::path> written;
+/// What a run does for each of its frames.
+struct QuiltRun {
+    const Scene& scene;
+    const std::vector<Device>& devices;
+    const Quilt& quilt;
+    const QuiltChoices& choices;
+    const ImageFileOptions& files;
+};
+
+/// Renders a frame's views and writes them to its files: all side by side or, where a name
+/// distinguishes eyes, each to its own file. Returns the files.
+std::vector<fs::path> render_views(const QuiltRun& run, const FrameFiles& frame,
+                                   const RenderOptions& options, Statistics& statistics) {
+    const auto has_eyes = [&](const fs::path& name) {
+        return files_of_eyes(name, run.choices).size() > 1;
+    };
+    std::vector<Image> views;
     std::optional<Image> joined;
-    for (const fs::path& name : names) {
-        const std::vector<fs::path> files = files_of_eyes(name, choices);
-        if (files.size() == 1 && !joined) joined = join_views(views, quilt);
+    if (std::ranges::any_of(frame.images, has_eyes))
+        views = render_views(run.scene, run.devices, run.quilt, frame.frame, options, &statistics);
+    else
+        joined = render_quilt(run.scene, run.devices, run.quilt, frame.frame, options, &statistics);
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<fs::path> written;
+    for (const fs::path& name : frame.images) {
+        const std::vector<fs::path> files = files_of_eyes(name, run.choices);
+        if (files.size() == 1 && !joined) joined = join_views(views, run.quilt);
         for (size_t eye = 0; eye < files.size(); ++eye)
-            (files.size() == 1 ? *joined : views[eye]).write(files[eye], options);
+            (files.size() == 1 ? *joined : views[eye]).write(files[eye], run.files);
         written.insert(written.end(), files.begin(), files.end());
     }
+    statistics.files += written.size();
+    statistics.write_seconds += seconds_since(start);
     return written;
 }
 
@@ -114,6 +138,25 @@ void skip_finished(const Scene& scene, const Quilt& quilt, const QuiltChoices& c
 std::string kind_of(const QuiltChoices& choices, size_t frames) {
     const char* kind = choices.stereo > 0 ? "stereo pair" : "quilt";
     return frames == 1 ? kind : fmt::format("{} {}s", frames, kind);
+}
+
+void print_plan_of_views(const RenderCommand& command, const Scene& scene, const FrameJob& job,
+                         const Quilt& quilt, const LazyDevices& devices) {
+    print_plan(scene, devices.selector(),
+               {.frames = numbers_of(job.frames),
+                .channels = needed_channels(job),
+                .views = quilt.columns * quilt.rows,
+                .cache = cache_options(command.scene)},
+               {.quiet = command.quiet, .strict = command.scene.strict});
+}
+
+RenderOptions render_options(const RenderCommand& command, const FrameJob& job) {
+    RenderOptions options;
+    options.channels = needed_channels(job);
+    options.cache = cache_options(command.scene);
+    options.strict = command.scene.strict;
+    options.time_kernels = command.verbose || !command.stats.empty();
+    return options;
 }
 
 }  // namespace
@@ -161,20 +204,15 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
                    LazyDevices& devices, const std::string& label) {
     refuse_others(command);
     const Quilt quilt = quilt_of(command.quilt);
+    if (command.plan_only) return print_plan_of_views(command, scene, job, quilt, devices);
     const Size size = scene.size();
     const std::string suffix =
         command.quilt.stereo > 0 ? "" : quilt_suffix(quilt, size, scene.pixel_aspect());
     const auto start = std::chrono::steady_clock::now();
-    const ProgressStyle style = progress_style(command.progress);
-    RenderProgress progress(
-        label, job.frames.size(),
-        command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style);
+    RenderProgress progress(label, job.frames.size(), style_of(command));
     const Interruptible interruptible;
-    RenderOptions options;
-    options.channels = needed_channels(job);
-    options.cache = cache_options(command.scene);
+    RenderOptions options = render_options(command, job);
     options.stop = interruptible.stop();
-    options.strict = command.scene.strict;
     options.compiling = [&](int kernel, int known) { progress.compiling(kernel, known); };
     if (!command.quiet) options.warn = warning_printer(options.strict, [&] { progress.clear(); });
     const auto count = double(job.frames.size());
@@ -184,6 +222,7 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     };
     const Overwrite overwrite = overwrite_of(command);
     Finished finished;
+    Statistics statistics;
     std::string written;
     for (FrameFiles frame : job.frames) {
         for (fs::path& file : frame.images) file = named(file, suffix);
@@ -193,22 +232,24 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
             ++done;
             continue;
         }
-        const std::vector<Image> views =
-            render_views(scene, devices.open(), quilt, frame.frame, options);
-        frame.images = write_views(views, quilt, frame.images, command.quilt, job.image_files);
+        frame.images = render_views({scene, devices.open(), quilt, command.quilt, job.image_files},
+                                    frame, options, statistics);
         if (written.empty() && !frame.images.empty()) written = frame.images.front().string();
         progress.written(frame);
         options.warn = {};
         ++done;
     }
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    statistics.total_seconds = seconds_since(start);
     progress.clear();
-    if (!command.quiet) progress.tell_of_compiling();
-    if (!command.quiet) tell_of(finished, job.frames.size());
-    if (!command.quiet && finished.frames < job.frames.size())
+    if (!command.stats.empty()) write_file(command.stats, to_json(statistics));
+    if (command.quiet) return;
+    progress.tell_of_compiling();
+    tell_of(finished, job.frames.size());
+    if (finished.frames < job.frames.size())
         tell("{} of {} views of {}x{} in {:.2f} s: {}\n",
              kind_of(command.quilt, job.frames.size() - finished.frames),
-             quilt.columns * quilt.rows, size[0], size[1], passed.count(), written);
+             quilt.columns * quilt.rows, size[0], size[1], statistics.total_seconds, written);
+    if (command.verbose) print_details(statistics);
 }
 
 }  // namespace voxelume::cli

@@ -27,12 +27,6 @@ Scene cropped(const Scene& scene, const std::string& text) {
     return scene.with_crop(part.first, part.size);
 }
 
-/// The style of progress. `-q` silences only the automatic style.
-ProgressStyle style_of(const RenderCommand& command) {
-    const ProgressStyle style = progress_style(command.progress);
-    return command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style;
-}
-
 /// Removes finished frames from the job, and reports them. Returns whether any frames are left.
 bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
     const size_t count = job.frames.size();
@@ -88,6 +82,11 @@ Statistics render_files(const Scene& scene, const std::vector<Device>& devices, 
 }
 
 }  // namespace
+
+ProgressStyle style_of(const RenderCommand& command) {
+    const ProgressStyle style = progress_style(command.progress);
+    return command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style;
+}
 
 const std::vector<Device>& LazyDevices::open() {
     if (devices_.empty()) devices_ = Device::open_all(selector_);

@@ -21,6 +21,9 @@ class LazyDevices {
     std::vector<Device> devices_;
 };
 
+/// The style of progress. `-q` silences only the automatic style.
+ProgressStyle style_of(const RenderCommand& command);
+
 /// Reads the command's scene and writes what the command asks for, or plans it. `label` precedes
 /// the progress bar. Throws Error.
 void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const std::string& label);

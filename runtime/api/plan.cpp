@@ -17,6 +17,7 @@
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
 #include "runtime/assets/model_frame.hpp"
+#include "runtime/base/main_memory.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/memory/image_bands.hpp"
 #include "runtime/opencl/self_test/device_facts.hpp"
@@ -128,7 +129,11 @@ v1::Plan plan_on(const v1::Scene& scene, const DeviceInfo& device, const v1::Pla
     make_choices(planned, meshes);
     const std::vector<Warning> warnings = scene_warnings(planned, frames, meshes);
     find_potentially_visible(planned, frames, meshes);
-    const ImageBands bands = planned_bands(planned, frames, meshes, device);
+    const bool is_quilt = options.views > 1;
+    const uint64_t kept = is_quilt ? bytes_of_views(planned, options.views) : 0;
+    const MainMemoryClaim claim(kept);
+    const ImageBands bands = is_quilt ? ImageBands{planned.render.size.y, 1}
+                                      : planned_bands(planned, frames, meshes, device);
     planned = band_of(planned, bands, 0);
     const auto progress = [&](size_t done) { options.progress(done, frames.size()); };
     v1::Plan result =
@@ -137,6 +142,8 @@ v1::Plan plan_on(const v1::Scene& scene, const DeviceInfo& device, const v1::Pla
                                      options.progress ? std::function<void(size_t)>(progress)
                                                       : std::function<void(size_t)>()),
                          frames.size(), device);
+    result.host_bytes += double(kept);
+    result.process_bytes += double(kept);
     result.device = device.name;
     result.bands = bands.count;
     result.band_rows = bands.rows;

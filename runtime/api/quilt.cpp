@@ -6,14 +6,19 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/api/frame_hash.hpp"
+#include "runtime/api/render.hpp"
 #include "runtime/base/files/cache_key.hpp"
+#include "runtime/base/main_memory.hpp"
 #include "runtime/image/join_images.hpp"
+#include "runtime/memory/image_bands.hpp"
 #include "runtime/scene/quilt.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/voxelume/render.hpp"
@@ -90,19 +95,40 @@ void check_views(const std::vector<Image>& views, const Quilt& quilt) {
                               count);
 }
 
-/// The root mean square of the noise of views, as their attributes tell it; empty if none has any.
-std::string noise_of(const std::vector<Image>& views) {
-    double squares = 0;
-    int count = 0;
-    for (const Image& view : views) {
+/// A quilt's image, of which views are copied one after another, from left to right.
+class QuiltImage {
+  public:
+    explicit QuiltImage(const Quilt& quilt) : quilt_(quilt) {}
+
+    void add(const Image& view) {
         const api::Attributes& attributes = view.implementation().attributes;
+        if (hashes_.empty()) attributes_ = attributes;
+        place_view(*view.implementation().image, int(hashes_.size()), {quilt_.columns, quilt_.rows},
+                   *image_);
+        const auto hash = attributes.find(api::kFrameHash);
+        hashes_.push_back(hash == attributes.end() ? "" : hash->second);
         const auto noise = attributes.find("noise");
-        if (noise == attributes.end()) continue;
-        squares += std::pow(std::strtod(noise->second.c_str(), nullptr), 2);
-        ++count;
+        if (noise == attributes.end()) return;
+        squares_ += std::pow(std::strtod(noise->second.c_str(), nullptr), 2);
+        ++with_noise_;
     }
-    return count == 0 ? "" : fmt::format("{:.5f}", std::sqrt(squares / count));
-}
+
+    Image finish() {
+        attributes_[api::kFrameHash] = quilt_hash(hashes_, quilt_);
+        attributes_.erase("noise");  // the noise of the first view alone
+        if (with_noise_ > 0)
+            attributes_["noise"] = fmt::format("{:.5f}", std::sqrt(squares_ / with_noise_));
+        return api::handle_of(std::move(image_), std::move(attributes_));
+    }
+
+  private:
+    Quilt quilt_;
+    std::shared_ptr<voxelume::Image> image_ = std::make_shared<voxelume::Image>();
+    api::Attributes attributes_;
+    std::vector<std::string> hashes_;
+    double squares_ = 0;  ///< of the noise of views, as their attributes tell it
+    int with_noise_ = 0;
+};
 
 /// The options with the progress of one view reported as a part of that of all views.
 RenderOptions options_of_view(const RenderOptions& options, int number, int views) {
@@ -113,6 +139,33 @@ RenderOptions options_of_view(const RenderOptions& options, int number, int view
         };
     if (number > 0) of_view.warn = {};  // other views would repeat the warnings
     return of_view;
+}
+
+struct QuiltJob {
+    const Quilt& quilt;
+    int frame;
+    const RenderOptions& options;
+};
+
+/// Renders the views of a frame one after another, and hands each on.
+void render_each(const Scene& scene, const std::vector<Device>& devices, const QuiltJob& job,
+                 const std::function<void(Image)>& take, Statistics* statistics) {
+    const std::vector<Scene> views = scenes_of_views(scene, job.quilt, job.frame);
+    const int count = int(views.size());
+    voxelume::Scene first = api::inside(views.front());
+    first.render.channels = api::inside(job.options.channels);
+    const MainMemoryClaim claim(bytes_of_views(first, count));
+    for (int number = 0; number < count; ++number) {
+        Statistics of_view;
+        const Image image = render_image(views[size_t(number)], devices, 1,
+                                         options_of_view(job.options, number, count), &of_view);
+        api::Attributes attributes = image.implementation().attributes;
+        attributes[api::kFrameHash] =
+            hash_of_view(attributes[api::kFrameHash], {job.quilt, job.frame, number});
+        take(api::handle_of(image.implementation().image, std::move(attributes)));
+        for (FrameStatistics& view : of_view.frames) view.frame = job.frame;
+        if (statistics) add_statistics(of_view, *statistics);
+    }
 }
 
 }  // namespace
@@ -140,19 +193,13 @@ std::string quilt_hash(const std::vector<std::string>& views, const Quilt& quilt
 }
 
 std::vector<Image> render_views(const Scene& scene, const std::vector<Device>& devices,
-                                const Quilt& quilt, int frame, const RenderOptions& options) {
+                                const Quilt& quilt, int frame, const RenderOptions& options,
+                                Statistics* statistics) {
     return api::guarded([&] {
         std::vector<Image> images;
-        const std::vector<Scene> views = scenes_of_views(scene, quilt, frame);
-        for (const Scene& view : views) {
-            const int number = int(images.size());
-            const Image image =
-                render_image(view, devices, 1, options_of_view(options, number, int(views.size())));
-            api::Attributes attributes = image.implementation().attributes;
-            attributes[api::kFrameHash] =
-                hash_of_view(attributes[api::kFrameHash], {quilt, frame, number});
-            images.push_back(api::handle_of(image.implementation().image, std::move(attributes)));
-        }
+        render_each(
+            scene, devices, {quilt, frame, options},
+            [&](Image view) { images.push_back(std::move(view)); }, statistics);
         return images;
     });
 }
@@ -161,27 +208,21 @@ Image join_views(const std::vector<Image>& views, const Quilt& quilt) {
     return api::guarded([&] {
         check_quilt(quilt);
         check_views(views, quilt);
-        std::vector<std::shared_ptr<const voxelume::Image>> images;
-        std::vector<std::string> hashes;
-        for (const Image& view : views) {
-            images.push_back(view.implementation().image);
-            const api::Attributes& attributes = view.implementation().attributes;
-            const auto hash = attributes.find(api::kFrameHash);
-            hashes.push_back(hash == attributes.end() ? "" : hash->second);
-        }
-        api::Attributes attributes = views.front().implementation().attributes;
-        attributes[api::kFrameHash] = quilt_hash(hashes, quilt);
-        attributes.erase("noise");  // the noise of the first view alone
-        if (const std::string noise = noise_of(views); !noise.empty()) attributes["noise"] = noise;
-        return api::handle_of(
-            std::make_shared<const voxelume::Image>(quilt_of(images, quilt.columns)),
-            std::move(attributes));
+        QuiltImage joined(quilt);
+        for (const Image& view : views) joined.add(view);
+        return joined.finish();
     });
 }
 
 Image render_quilt(const Scene& scene, const std::vector<Device>& devices, const Quilt& quilt,
-                   int frame, const RenderOptions& options) {
-    return join_views(render_views(scene, devices, quilt, frame, options), quilt);
+                   int frame, const RenderOptions& options, Statistics* statistics) {
+    return api::guarded([&] {
+        QuiltImage joined(quilt);
+        render_each(
+            scene, devices, {quilt, frame, options}, [&](const Image& view) { joined.add(view); },
+            statistics);
+        return joined.finish();
+    });
 }
 
 }  // namespace voxelume::v1

@@ -3,6 +3,7 @@
 #include "runtime/voxelume/statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/api/render.hpp"
 
@@ -42,6 +43,28 @@ v1::RayCounts rays_of(const RenderReport& report) {
             .not_finite = report.not_finite,
             .noise = mean_of(report.noise),
             .volume_noise = mean_of(report.volume_noise)};
+}
+
+/// The root mean square of two means over so many images; one may be missing.
+std::optional<double> joint_mean(std::optional<double> a, size_t of_a, std::optional<double> b,
+                                 size_t of_b) {
+    if (!a || !b) return a ? a : b;
+    return std::sqrt((double(of_a) * *a * *a + double(of_b) * *b * *b) / double(of_a + of_b));
+}
+
+void add_rays(const v1::RayCounts& rays, v1::RayCounts& sum) {
+    sum.sight_rays += rays.sight_rays;
+    sum.beams += rays.beams;
+    sum.clear_beams += rays.clear_beams;
+    sum.display_lines += rays.display_lines;
+    sum.clear_display_lines += rays.clear_display_lines;
+    sum.contrasting_pixels += rays.contrasting_pixels;
+    sum.shadow_rays += rays.shadow_rays;
+    sum.light_beams += rays.light_beams;
+    sum.secondary_rays += rays.secondary_rays;
+    sum.ended_paths += rays.ended_paths;
+    sum.medium_overflows += rays.medium_overflows;
+    sum.not_finite += rays.not_finite;
 }
 
 v1::WorldReuse reuse_of(WorldChange change) {
@@ -94,6 +117,43 @@ const char* v1::name_of(WorldReuse world) {
 
 const char* v1::name_of(ImageReuse image) {
     return image == ImageReuse::kept ? "kept" : image == ImageReuse::shaded ? "shaded" : "traced";
+}
+
+void v1::add_statistics(const Statistics& later, Statistics& sum) {
+    if (sum.frames.empty()) {
+        sum = later;
+        return;
+    }
+    const size_t before = sum.frames.size(), more = later.frames.size();
+    add_rays(later.rays, sum.rays);
+    sum.rays.noise = joint_mean(sum.rays.noise, before, later.rays.noise, more);
+    sum.rays.volume_noise =
+        joint_mean(sum.rays.volume_noise, before, later.rays.volume_noise, more);
+    add(later.seconds, sum.seconds);
+    sum.open_seconds += later.open_seconds;
+    sum.write_seconds += later.write_seconds;
+    sum.total_seconds += later.total_seconds;
+    sum.files += later.files;
+    sum.bands = std::max(sum.bands, later.bands);
+    sum.voxels = std::max(sum.voxels, later.voxels);
+    sum.triangles = std::max(sum.triangles, later.triangles);
+    sum.culled_objects = std::max(sum.culled_objects, later.culled_objects);
+    sum.world_bytes = std::max(sum.world_bytes, later.world_bytes);
+    if (later.instances.instances >= sum.instances.instances) sum.instances = later.instances;
+    if (!sum.one_by_one_from) sum.one_by_one_from = later.one_by_one_from;
+    sum.frames.insert(sum.frames.end(), later.frames.begin(), later.frames.end());
+    for (const Warning& warning : later.warnings)
+        if (std::ranges::none_of(sum.warnings, [&](const Warning& known) {
+                return known.where == warning.where && known.text == warning.text;
+            }))
+            sum.warnings.push_back(warning);
+    sum.peak_device_bytes = later.peak_device_bytes;
+    sum.launches = later.launches;
+    sum.kernel_ms = later.kernel_ms;
+    sum.allocated_bytes = later.allocated_bytes;
+    sum.programs_made = later.programs_made;
+    sum.programs_from_cache = later.programs_from_cache;
+    sum.programs_ms = later.programs_ms;
 }
 
 v1::FrameStatistics api::statistics_of(const FrameReport& frame) {

@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
 
 std::atomic<uint64_t> chosen_limit = kNoLimit;
+std::atomic<uint64_t> claimed_bytes = 0;
 
 /// The number in a file of one line; without one, as in "max", there is no limit.
 uint64_t limit_in(const fs::path& file) {
@@ -53,7 +54,16 @@ uint64_t resident_memory() {
 
 uint64_t main_memory() {
     static const uint64_t allowed = allowed_memory();
-    return std::min(allowed, chosen_limit.load());
+    const uint64_t limit = std::min(allowed, chosen_limit.load());
+    return limit - std::min(limit, claimed_bytes.load());
+}
+
+MainMemoryClaim::MainMemoryClaim(uint64_t bytes) : bytes_(bytes) {
+    claimed_bytes += bytes_;
+}
+
+MainMemoryClaim::~MainMemoryClaim() {
+    claimed_bytes -= bytes_;
 }
 
 void limit_main_memory(uint64_t bytes) {

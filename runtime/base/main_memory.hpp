@@ -11,11 +11,25 @@
 namespace voxelume {
 
 /// Bytes: those of the machine, or fewer where the process's control group (a container, a job of
-/// Slurm), its limits (`ulimit -d` and `-v`) or limit_main_memory() allow fewer.
+/// Slurm), its limits (`ulimit -d` and `-v`) or limit_main_memory() allow fewer; less what is
+/// claimed.
 uint64_t main_memory();
 
 /// Makes main_memory() return at most `bytes`; 0 removes this limit. Any thread may call it.
 void limit_main_memory(uint64_t bytes);
+
+/// Main memory for what several renderings make together, which neither of them counts: while this
+/// exists, main_memory() is less by its bytes.
+class MainMemoryClaim {
+  public:
+    explicit MainMemoryClaim(uint64_t bytes);
+    ~MainMemoryClaim();
+    MainMemoryClaim(const MainMemoryClaim&) = delete;
+    MainMemoryClaim& operator=(const MainMemoryClaim&) = delete;
+
+  private:
+    uint64_t bytes_;
+};
 
 /// True if the process may take this many bytes in addition to what it holds (its resident memory).
 bool has_room_for(double bytes);

@@ -93,20 +93,17 @@ void place(const Image& view, std::map<std::string, Plane<Value>> Image::*planes
 
 }  // namespace
 
-Image quilt_of(const std::vector<std::shared_ptr<const Image>>& views, int columns) {
-    const glm::ivec2 size(views.front()->width, views.front()->height);
-    const int rows = (int(views.size()) + columns - 1) / columns;
-    Image quilt;
-    quilt.width = size.x * columns;
-    quilt.height = size.y * rows;
-    quilt.attributes = views.front()->attributes;
-    for (size_t i = 0; i < views.size(); ++i) {
-        const int row = int(i) / columns, column = int(i) % columns;
-        const glm::ivec2 first(column * size.x, (rows - 1 - row) * size.y);
-        place(*views[i], &Image::planes, first, quilt);
-        place(*views[i], &Image::id_planes, first, quilt);
+void place_view(const Image& view, int number, const glm::ivec2& columns_and_rows, Image& quilt) {
+    const auto [columns, rows] = std::pair(columns_and_rows.x, columns_and_rows.y);
+    if (quilt.width == 0) {
+        quilt.width = view.width * columns;
+        quilt.height = view.height * rows;
+        quilt.attributes = view.attributes;
     }
-    return quilt;
+    const glm::ivec2 first(number % columns * view.width,
+                           (rows - 1 - number / columns) * view.height);
+    place(view, &Image::planes, first, quilt);
+    place(view, &Image::id_planes, first, quilt);
 }
 
 }  // namespace voxelume

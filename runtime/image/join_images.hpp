@@ -17,8 +17,9 @@ namespace voxelume {
 /// parts have or that none between them has.
 Image join_images(std::vector<Image> parts);
 
-/// The quilt of views of one size and of the same channels, `columns` to a row: the first one is at
-/// the bottom left, and the last one at the top right.
-Image quilt_of(const std::vector<std::shared_ptr<const Image>>& views, int columns);
+/// Copies view `number` to its place in a quilt of `columns` x `rows` views of its size: the first
+/// one is at the bottom left, and the last one at the top right. An empty quilt gets its size, its
+/// channels and its attributes from the view; later views need the same size and channels.
+void place_view(const Image& view, int number, const glm::ivec2& columns_and_rows, Image& quilt);
 
 }  // namespace voxelume

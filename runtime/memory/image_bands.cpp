@@ -24,16 +24,23 @@ bool is_small(const Scene& scene, const DeviceInfo& device) {
     return bytes <= kSmallPart * there && bytes <= double(device.max_allocation);
 }
 
-/// The bytes of other arrays in main memory while a band is written: planes of the light's parts,
-/// other samples, and chunks of files.
-double writing_bytes(const Scene& scene) {
+/// The number of an image's planes that its device doesn't have: parts of the light, and what tells
+/// of samples.
+int other_planes(const Scene& scene) {
     const ImageChannels& channels = scene.render.channels;
     std::set<std::string> groups;
     for (const Light& light : scene.lights) groups.insert(light.group);
     const int passes = int(channels.albedo) + int(channels.direct) + int(channels.indirect) +
                        int(channels.shadow) + (channels.light_groups ? int(groups.size()) + 1 : 0);
-    const int planes = 3 * passes + int(channels.samples) + int(channels.noise);
-    const int again = scene.render.noise.is_given() ? 4 + 3 * int(channels.variance) : 0;
+    return 3 * passes + int(channels.samples) + int(channels.noise);
+}
+
+/// The bytes of other arrays in main memory while a band is written: planes of the light's parts,
+/// other samples, and chunks of files.
+double writing_bytes(const Scene& scene) {
+    const int planes = other_planes(scene);
+    const int again =
+        scene.render.noise.is_given() ? 4 + 3 * int(scene.render.channels.variance) : 0;
     const double row =
         image_bytes(scene.render) / scene.render.size.y + 4.0 * planes * scene.render.size.x;
     return 2 * 4.0 * (planes + again) * scene.render.size.x * scene.render.size.y +
@@ -41,6 +48,23 @@ double writing_bytes(const Scene& scene) {
 }
 
 }  // namespace
+
+double kept_image_bytes(const Scene& scene) {
+    const glm::dvec2 size(scene.render.size);
+    return image_bytes(scene.render) + 4.0 * other_planes(scene) * size.x * size.y;
+}
+
+uint64_t bytes_of_views(const Scene& scene, int views) {
+    const double bytes = views * kept_image_bytes(scene), there = double(main_memory());
+    if (bytes + kDriverBytes > there)
+        throw Error(ErrorKind::limit,
+                    "{} views of {}x{} pixels take {} of main memory, of which this process may "
+                    "take {}, and {} of that for the program and its OpenCL driver: ask for "
+                    "smaller views, for fewer, or for fewer channels",
+                    views, scene.render.size.x, scene.render.size.y, bytes_text(bytes),
+                    bytes_text(there), bytes_text(kDriverBytes));
+    return uint64_t(bytes);
+}
 
 double process_bytes(const Scene& scene, const ScenePlan& plan, double device_bytes,
                      const DeviceInfo& device) {

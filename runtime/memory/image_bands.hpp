@@ -23,6 +23,13 @@ struct ImageBands {
 double process_bytes(const Scene& scene, const ScenePlan& plan, double device_bytes,
                      const DeviceInfo& device);
 
+/// The bytes of main memory of an image with all of its channels.
+double kept_image_bytes(const Scene& scene);
+
+/// The bytes of main memory that `views` views of a quilt take, which are kept or joined while
+/// others are rendered. Throws Error::limit if they leave no memory for rendering.
+uint64_t bytes_of_views(const Scene& scene, int views);
+
 /// The scene whose image is band `band` of the scene's image, from 0 on.
 Scene band_of(const Scene& scene, const ImageBands& bands, int band);
 

@@ -89,6 +89,7 @@ struct PlanOptions {
     Channels channels{};        ///< channels of the images
     bool image = true;          ///< true: flat images are wanted
     bool volume = false;        ///< true: volumetric images are wanted
+    int views = 1;              ///< views of a quilt, which main memory holds together
     CacheOptions cache{};       ///< cache with known models, which needn't be read
     /// Called with the number of frames that are planned, and of all.
     std::function<void(size_t done, size_t frames)> progress{};

@@ -81,15 +81,19 @@ std::string quilt_suffix(const Quilt& quilt, Size view, double pixel_aspect = 1)
 
 /// Renders a frame's views and lays them side by side: the leftmost at the bottom left, the
 /// rightmost at the top right. The scene's image is the size of one. The observer needs a display
-/// that is a pyramid. A target of noise counts for each view, and its seconds for all. Throws as
-/// render_image does, and Error::usage for other quilts or observers.
+/// that is a pyramid. A target of noise counts for each view, and its seconds for all. Statistics,
+/// where there are some, get those of all views added. Throws as render_image does, Error::usage
+/// for other quilts or observers, and Error::limit, before memory is taken, where main memory has
+/// no room for all views.
 Image render_quilt(const Scene& scene, const std::vector<Device>& devices, const Quilt& quilt,
-                   int frame = 1, const RenderOptions& options = {});
+                   int frame = 1, const RenderOptions& options = {},
+                   Statistics* statistics = nullptr);
 
 /// The views of a quilt as images of their own, from left to right. Throws as render_quilt does.
 std::vector<Image> render_views(const Scene& scene, const std::vector<Device>& devices,
                                 const Quilt& quilt, int frame = 1,
-                                const RenderOptions& options = {});
+                                const RenderOptions& options = {},
+                                Statistics* statistics = nullptr);
 
 /// The image that render_quilt makes of the views of render_views. Throws Error::usage for other
 /// numbers or sizes of images.

@@ -134,6 +134,10 @@ struct Statistics {
     double programs_ms = 0;            ///< milliseconds to make them ready
 };
 
+/// Adds those of a later run on the same devices: counts and seconds are summed, sizes are the
+/// larger ones, and the counters of devices the later ones.
+void add_statistics(const Statistics& later, Statistics& sum);
+
 /// The statistics as JSON, as `voxelume render --stats-json` writes them.
 std::string to_json(const Statistics& statistics);
 

@@ -36,6 +36,17 @@ TEST_F(MainMemory, IsAtMostThatOfTheMachine) {
     EXPECT_LE(main_memory(), machine);
 }
 
+TEST_F(MainMemory, IsLessByWhatIsClaimed) {
+    const uint64_t whole = main_memory();
+    {
+        const MainMemoryClaim claim(1000), other(24);
+        EXPECT_EQ(main_memory(), whole - 1024);
+        const MainMemoryClaim all(whole);
+        EXPECT_EQ(main_memory(), 0u);
+    }
+    EXPECT_EQ(main_memory(), whole);
+}
+
 TEST_F(MainMemory, IsAtMostTheLimitThatIsChosen) {
     const uint64_t whole = main_memory();
     EXPECT_EQ(chosen_memory_limit(), kNone);

@@ -9,7 +9,17 @@ namespace voxelume {
 
 using testing::HasSubstr;
 
-class CliQuiltTest : public SceneProgramTest {};
+class CliQuiltTest : public SceneProgramTest {
+  protected:
+    /// Writes a scene of two frames.
+    void write_turning_scene() {
+        write_scene([](Json& scene) {
+            scene["animation"] = Json::parse(R"({"frames": 2, "tracks": [
+                {"target": "objects[0].turn", "keys": [{"frame": 1, "value": [0, 0, 0]},
+                                                       {"frame": 2, "value": [90, 40, 0]}]}]})");
+        });
+    }
+};
 
 TEST_F(CliQuiltTest, ViewsLieFromTheBottomLeftToTheTopRight) {
     const ProgramResult result =
@@ -112,11 +122,7 @@ TEST_F(CliQuiltTest, ViewsTakeAsManySamplesAsTheyNeed) {
 }
 
 TEST_F(CliQuiltTest, FinishedFramesStay) {
-    write_scene([](Json& scene) {
-        scene["animation"] = Json::parse(R"({"frames": 2, "tracks": [
-            {"target": "objects[0].turn", "keys": [{"frame": 1, "value": [0, 0, 0]},
-                                                   {"frame": 2, "value": [90, 40, 0]}]}]})");
-    });
+    write_turning_scene();
     const std::string line = "render scene.json -o q.#.png --quilt 2x1 --frames 1-2 ";
     ASSERT_EQ(run(line).exit_code, 0);
     const auto name = [&](int frame) {
@@ -155,9 +161,47 @@ TEST_F(CliQuiltTest, ItsNameHasTheProportionsOfItsViews) {
     EXPECT_TRUE(std::filesystem::exists(folder / "q_qs2x1a3.333.png"));
 }
 
+TEST_F(CliQuiltTest, ItsStatisticsAreSumsOfItsViews) {
+    const std::string options = " --samples 2 --stats-json s.json";
+    ASSERT_EQ(run("render scene.json -o one.png" + options).exit_code, 0);
+    const Json one = Json::parse(bytes_of(folder / "s.json"));
+    write_turning_scene();
+    const ProgramResult quilts = run("render scene.json -o q.#.png --quilt 3x1" + options);
+    ASSERT_EQ(quilts.exit_code, 0) << quilts.err;
+    const Json both = Json::parse(bytes_of(folder / "s.json"));
+    EXPECT_EQ(both["files"], 2);
+    EXPECT_EQ(both["sight_rays"], 6 * one["sight_rays"].get<int>());
+    EXPECT_EQ(both["voxels"], one["voxels"]);
+    ASSERT_EQ(both["frames"].size(), 6u);
+    EXPECT_EQ(both["frames"][2]["frame"], 1);
+    EXPECT_EQ(both["frames"][3]["frame"], 2);
+    EXPECT_EQ(both["launches"]["resolve_pixels"], 6 * one["launches"]["resolve_pixels"].get<int>());
+    ASSERT_EQ(run("render scene.json -o e_{eye}.png --stereo 0.1" + options).exit_code, 0);
+    EXPECT_EQ(Json::parse(bytes_of(folder / "s.json"))["files"], 2);
+}
+
+TEST_F(CliQuiltTest, WhatItTakesIsToldAndKeptToTheLimit) {
+    const std::string line = "render scene.json -o q.png --size 1024x1024 --dry-run ";
+    const auto process_mb = [&](const std::string& option) {
+        const ProgramResult result = run(line + option);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        const size_t at = result.out.find("whole process");
+        const std::string text = result.out.substr(at + 13, 20);
+        return std::stod(text) * (text.find("GB") < text.find("MB") ? 1e3 : 1);
+    };
+    // Each pixel takes four numbers of four bytes.
+    EXPECT_NEAR(process_mb("--quilt 8x8") - process_mb(""), 64 * 16 * 1.048576, 60);
+    EXPECT_THAT(expect_failure(8, line + "--quilt 8x8 --memory-limit 1GB"),
+                HasSubstr("64 views of 1024x1024 pixels take 1.1 GB of main memory"));
+    EXPECT_THAT(
+        expect_failure(
+            8, "render scene.json -o q.png --size 1024x1024 --quilt 8x8 --memory-limit 1GB"),
+        HasSubstr("ask for smaller views"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "q_qs8x8a1.png"));
+}
+
 TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
-    for (const char* option :
-         {"--crop 0,0,4,4", "--shard 1/2", "--stats-json s.json", "--volume v.vdb"})
+    for (const char* option : {"--crop 0,0,4,4", "--shard 1/2", "--volume v.vdb"})
         EXPECT_THAT(
             expect_failure(2, fmt::format("render scene.json -o q.png --quilt 2x2 {}", option)),
             HasSubstr("can't be had of a quilt"));
