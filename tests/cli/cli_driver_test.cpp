@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "runtime/base/sanitizers.hpp"
 #include "tests/cli/scene_program.hpp"
 
 namespace voxelume {
@@ -169,6 +170,7 @@ TEST_F(CliDriverTest, IsLoadedOnceToCheckScenes) {
 }
 
 TEST_F(CliDriverTest, IsAskedAgainWhereAProcessMayHaveOtherMemory) {
+    if (kHasSanitizer) GTEST_SKIP() << "a sanitizer takes memory of its own";
     // PoCL takes the limit of a process's data for the size of its memory.
     const auto checked = [&](const char* limit) {
         return run_line(
