@@ -86,6 +86,7 @@
 #include "voxelume/observer.hpp"
 #include "voxelume/plan.hpp"
 #include "voxelume/process.hpp"
+#include "voxelume/quilt.hpp"
 #include "voxelume/render.hpp"
 #include "voxelume/scene.hpp"
 #include "voxelume/statistics.hpp"

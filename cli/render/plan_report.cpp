@@ -71,6 +71,7 @@ Report plan_report(const Plan& plan) {
             {{"stage", stage.name},
              {"MB", megabytes(stage.bytes)},
              {"% of device", three_digits(stage.bytes / plan.device_bytes * 100)}});
+    if (plan.views_bytes > 0) report["views"] = bytes_text(plan.views_bytes);
     report["largest buffer"] = bytes_text(plan.largest_buffer_bytes);
     report["main memory"] = bytes_text(plan.host_bytes);
     report["whole process"] = bytes_text(plan.process_bytes);

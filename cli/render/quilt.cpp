@@ -145,7 +145,7 @@ void print_plan_of_views(const RenderCommand& command, const Scene& scene, const
     print_plan(scene, devices.selector(),
                {.frames = numbers_of(job.frames),
                 .channels = needed_channels(job),
-                .views = quilt.columns * quilt.rows,
+                .quilt = quilt,
                 .cache = cache_options(command.scene)},
                {.quiet = command.quiet, .strict = command.scene.strict});
 }
@@ -201,14 +201,14 @@ void add_quilt_options(CLI::App& app, QuiltChoices& choices) {
 }
 
 void render_quilts(const RenderCommand& command, const Scene& scene, const FrameJob& job,
-                   LazyDevices& devices, const std::string& label) {
+                   LazyDevices& devices, const std::string& label,
+                   std::chrono::steady_clock::time_point start) {
     refuse_others(command);
     const Quilt quilt = quilt_of(command.quilt);
     if (command.plan_only) return print_plan_of_views(command, scene, job, quilt, devices);
     const Size size = scene.size();
     const std::string suffix =
         command.quilt.stereo > 0 ? "" : quilt_suffix(quilt, size, scene.pixel_aspect());
-    const auto start = std::chrono::steady_clock::now();
     RenderProgress progress(label, job.frames.size(), style_of(command));
     const Interruptible interruptible;
     RenderOptions options = render_options(command, job);
@@ -232,6 +232,10 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
             ++done;
             continue;
         }
+        if (statistics.frames.empty()) {
+            devices.open();
+            statistics.open_seconds = seconds_since(start);
+        }
         frame.images = render_views({scene, devices.open(), quilt, command.quilt, job.image_files},
                                     frame, options, statistics);
         if (written.empty() && !frame.images.empty()) written = frame.images.front().string();
@@ -245,10 +249,10 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     if (command.quiet) return;
     progress.tell_of_compiling();
     tell_of(finished, job.frames.size());
-    if (finished.frames < job.frames.size())
-        tell("{} of {} views of {}x{} in {:.2f} s: {}\n",
-             kind_of(command.quilt, job.frames.size() - finished.frames),
-             quilt.columns * quilt.rows, size[0], size[1], statistics.total_seconds, written);
+    if (statistics.frames.empty()) return;
+    tell("{} of {} views of {}x{} in {:.2f} s: {}\n",
+         kind_of(command.quilt, job.frames.size() - finished.frames), quilt.columns * quilt.rows,
+         size[0], size[1], statistics.total_seconds, written);
     if (command.verbose) print_details(statistics);
 }
 

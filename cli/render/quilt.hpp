@@ -2,6 +2,7 @@
 // `render --quilt` and `--stereo`: the views for a light-field display, and for two eyes.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -42,7 +43,10 @@ std::vector<std::filesystem::path> files_of_eyes(const std::filesystem::path& fi
 /// Renders a quilt or a stereo pair for each of the job's frames, and writes its files: quilts
 /// under names that describe them; pairs side by side or, where a name has `kEye`, one file per
 /// eye. Throws Error::usage for options that are impossible with them.
+///
+/// `start` is when the job began, for its statistics.
 void render_quilts(const RenderCommand& command, const Scene& scene, const FrameJob& job,
-                   LazyDevices& devices, const std::string& label);
+                   LazyDevices& devices, const std::string& label,
+                   std::chrono::steady_clock::time_point start);
 
 }  // namespace voxelume::cli

@@ -109,7 +109,7 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     job.frames = frame_files(command, scene);
     check_files(job.frames, scene, command);
     if (command.quilt.is_asked_for())
-        return render_quilts(command, scene, job, lazy_devices, label);
+        return render_quilts(command, scene, job, lazy_devices, label, start);
     if (!command.crop.empty() && command.outputs.empty() && !command.volumes.empty())
         fail_usage("render: --crop is of images, and no -o names one; --volume is whole anyway");
     if (!command.crop.empty()) scene = cropped(scene, command.crop);

@@ -14,6 +14,7 @@
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/api/border/process.hpp"
+#include "runtime/api/quilt.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
 #include "runtime/assets/model_frame.hpp"
@@ -129,11 +130,14 @@ v1::Plan plan_on(const v1::Scene& scene, const DeviceInfo& device, const v1::Pla
     make_choices(planned, meshes);
     const std::vector<Warning> warnings = scene_warnings(planned, frames, meshes);
     find_potentially_visible(planned, frames, meshes);
-    const bool is_quilt = options.views > 1;
-    const uint64_t kept = is_quilt ? bytes_of_views(planned, options.views) : 0;
+    uint64_t kept = 0;
+    if (const std::optional<v1::Quilt>& quilt = options.quilt) {
+        for (const int frame : frames) api::check_quilt(planned, *quilt, frame);
+        kept = bytes_of_views(planned, quilt->columns * quilt->rows);
+    }
     const MainMemoryClaim claim(kept);
-    const ImageBands bands = is_quilt ? ImageBands{planned.render.size.y, 1}
-                                      : planned_bands(planned, frames, meshes, device);
+    const ImageBands bands = options.quilt ? ImageBands{planned.render.size.y, 1}
+                                           : planned_bands(planned, frames, meshes, device);
     planned = band_of(planned, bands, 0);
     const auto progress = [&](size_t done) { options.progress(done, frames.size()); };
     v1::Plan result =
@@ -142,6 +146,7 @@ v1::Plan plan_on(const v1::Scene& scene, const DeviceInfo& device, const v1::Pla
                                      options.progress ? std::function<void(size_t)>(progress)
                                                       : std::function<void(size_t)>()),
                          frames.size(), device);
+    result.views_bytes = double(kept);
     result.host_bytes += double(kept);
     result.process_bytes += double(kept);
     result.device = device.name;

@@ -14,6 +14,7 @@
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/api/frame_hash.hpp"
+#include "runtime/api/quilt.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/base/files/cache_key.hpp"
 #include "runtime/base/main_memory.hpp"
@@ -47,13 +48,17 @@ std::string hash_of(const CacheKey& key) {
     return cache_key(parts);
 }
 
+ViewRow row_of(const Quilt& quilt) {
+    return {quilt.columns * quilt.rows, quilt.cone, quilt.focus, quilt.separation};
+}
+
 /// The views of a frame as scenes of their own, from left to right.
 std::vector<Scene> scenes_of_views(const Scene& scene, const Quilt& quilt, int frame) {
     check_quilt(quilt);
     voxelume::Scene now = scene_at(api::inside(scene), frame);
-    const int count = quilt.columns * quilt.rows;
+    const ViewRow row = row_of(quilt);
+    const int count = row.views;
     now.render.noise.seconds /= count;
-    const ViewRow row{count, quilt.cone, quilt.focus, quilt.separation};
     std::vector<Scene> views;
     views.reserve(size_t(count));
     for (int number = 0; number < count; ++number)
@@ -93,6 +98,18 @@ void check_views(const std::vector<Image>& views, const Quilt& quilt) {
         throw voxelume::Error(voxelume::ErrorKind::usage,
                               "this quilt is made of {} images of one size and the same channels",
                               count);
+}
+
+/// Throws Error::limit where main memory has no room for views and the image of all.
+void require_room(const std::vector<Image>& views) {
+    const voxelume::Image& view = *views.front().implementation().image;
+    const double bytes = 4.0 * double(view.planes.size() + view.id_planes.size()) * view.width *
+                         view.height * double(views.size());
+    if (has_room_for(bytes)) return;
+    throw voxelume::Error(voxelume::ErrorKind::limit,
+                          "{} views and the image of all take {} more of main memory than this "
+                          "process may: write them to files of their own, or ask for smaller ones",
+                          views.size(), voxelume::bytes_text(bytes));
 }
 
 /// A quilt's image, of which views are copied one after another, from left to right.
@@ -208,6 +225,7 @@ Image join_views(const std::vector<Image>& views, const Quilt& quilt) {
     return api::guarded([&] {
         check_quilt(quilt);
         check_views(views, quilt);
+        require_room(views);
         QuiltImage joined(quilt);
         for (const Image& view : views) joined.add(view);
         return joined.finish();
@@ -226,3 +244,14 @@ Image render_quilt(const Scene& scene, const std::vector<Device>& devices, const
 }
 
 }  // namespace voxelume::v1
+
+namespace voxelume {
+
+void api::check_quilt(const Scene& scene, const v1::Quilt& quilt, int frame) {
+    v1::check_quilt(quilt);
+    const Scene now = scene_at(scene, frame);
+    const ViewRow row = v1::row_of(quilt);
+    for (const int number : {0, row.views - 1}) view_of_row(now, row, number);
+}
+
+}  // namespace voxelume

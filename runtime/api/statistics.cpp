@@ -121,7 +121,9 @@ const char* v1::name_of(ImageReuse image) {
 
 void v1::add_statistics(const Statistics& later, Statistics& sum) {
     if (sum.frames.empty()) {
+        const double open_seconds = sum.open_seconds + later.open_seconds;
         sum = later;
+        sum.open_seconds = open_seconds;
         return;
     }
     const size_t before = sum.frames.size(), more = later.frames.size();

@@ -50,12 +50,21 @@ uint64_t resident_memory() {
     return stream >> pages >> resident ? resident * uint64_t(sysconf(_SC_PAGE_SIZE)) : 0;
 }
 
+/// main_memory() without claims.
+uint64_t memory_limit() {
+    static const uint64_t allowed = allowed_memory();
+    return std::min(allowed, chosen_limit.load());
+}
+
 }  // namespace
 
 uint64_t main_memory() {
-    static const uint64_t allowed = allowed_memory();
-    const uint64_t limit = std::min(allowed, chosen_limit.load());
+    const uint64_t limit = memory_limit();
     return limit - std::min(limit, claimed_bytes.load());
+}
+
+uint64_t claimed_memory() {
+    return claimed_bytes;
 }
 
 MainMemoryClaim::MainMemoryClaim(uint64_t bytes) : bytes_(bytes) {
@@ -71,7 +80,7 @@ void limit_main_memory(uint64_t bytes) {
 }
 
 bool has_room_for(double bytes) {
-    return bytes + double(resident_memory()) <= double(main_memory());
+    return bytes + double(resident_memory()) <= double(memory_limit());
 }
 
 void require_room(const fs::path& file, std::string_view what, double bytes) {
@@ -80,7 +89,7 @@ void require_room(const fs::path& file, std::string_view what, double bytes) {
                 "{}: {} takes {:.3g} GB in addition to the {:.3g} GB that this process holds, and "
                 "it may hold {:.3g} GB: allow it more memory",
                 SourcePlace(file.string()), what, bytes / 1e9, double(resident_memory()) / 1e9,
-                double(main_memory()) / 1e9);
+                double(memory_limit()) / 1e9);
 }
 
 uint64_t chosen_memory_limit() {

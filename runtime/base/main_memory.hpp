@@ -19,7 +19,7 @@ uint64_t main_memory();
 void limit_main_memory(uint64_t bytes);
 
 /// Main memory for what several renderings make together, which neither of them counts: while this
-/// exists, main_memory() is less by its bytes.
+/// exists, main_memory() is less by its bytes. What is there of it already counts as held.
 class MainMemoryClaim {
   public:
     explicit MainMemoryClaim(uint64_t bytes);
@@ -30,6 +30,9 @@ class MainMemoryClaim {
   private:
     uint64_t bytes_;
 };
+
+/// The bytes that are claimed.
+uint64_t claimed_memory();
 
 /// True if the process may take this many bytes in addition to what it holds (its resident memory).
 bool has_room_for(double bytes);

@@ -29,6 +29,14 @@ std::string larger_voxels(const glm::dvec3& edge, double factor) {
                 size_text(world.voxels), needs, larger_voxels(world.voxel_size, factor));
 }
 
+/// The main memory that the process may take: "2 GB", or what views of a quilt leave of it.
+std::string allowed_text() {
+    const std::string bytes = bytes_text(double(main_memory()));
+    const uint64_t claimed = claimed_memory();
+    if (claimed == 0) return bytes;
+    return fmt::format("{} beside the {} of a quilt's views", bytes, bytes_text(double(claimed)));
+}
+
 /// The factor by which voxels must grow: tables shrink with the cube of the edge, surfaces with the
 /// square.
 double table_factor(double bytes, double there) {
@@ -199,7 +207,7 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
         throw Error(ErrorKind::limit,
                     "the program and its OpenCL driver take {} of main memory, of which this "
                     "process may take {}: allow it more",
-                    bytes_text(kDriverBytes), bytes_text(there));
+                    bytes_text(kDriverBytes), allowed_text());
     const bool shares = device.kind == DeviceKind::cpu;
     const double image =
         (shares ? 3 : 2) * image_bytes(scene.render) + (shares ? plan.rays.minimum() : 0);
@@ -207,12 +215,12 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
         throw Error(ErrorKind::limit,
                     "an image of {}x{} pixels and its world need {} of main memory, of which this "
                     "process may take {}: {}",
-                    scene.render.size.x, scene.render.size.y, bytes_text(host), bytes_text(there),
+                    scene.render.size.x, scene.render.size.y, bytes_text(host), allowed_text(),
                     smaller_image(scene.render, plan.rays));
     if (host > there)
         refuse_world(scene.world,
                      fmt::format("{} of main memory, of which this process may take {}",
-                                 bytes_text(host), bytes_text(there)),
+                                 bytes_text(host), allowed_text()),
                      surface_factor(host, there));
     check_piece(scene.world.where, "a world", plan.world, plan.largest, device);
 }

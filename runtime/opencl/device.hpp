@@ -66,6 +66,7 @@ struct DeviceCounters {
     uint64_t peak_bytes = 0;
     uint64_t programs_built = 0;       ///< number of programs made ready, compiled or not
     uint64_t programs_from_cache = 0;  ///< number of those that weren't compiled again
+    uint64_t programs_begun = 0;       ///< number of those made ready before they were needed
     double build_ms = 0;         ///< time for making programs ready; PoCL does most at first launch
     std::string largest_buffer;  ///< name of the largest buffer so far
     uint64_t largest_bytes = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <semaphore>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -71,8 +72,12 @@ std::shared_future<BuiltProgram> KernelBuilds::start(const CompilerTarget& targe
 
 void KernelBuilds::begin(const std::string& key, std::function<BuiltProgram()> build) {
     const std::lock_guard lock(mutex_);
-    std::future<BuiltProgram>& begun = begun_[key];
-    if (!begun.valid()) begun = std::async(std::launch::async, std::move(build));
+    if (begun_.contains(key)) return;
+    try {
+        begun_.emplace(key, std::async(std::launch::async, std::move(build)));
+    } catch (const std::system_error&) {
+        return;  // no thread can be started, so the program is built when it is needed
+    }
 }
 
 std::optional<BuiltProgram> KernelBuilds::take(const std::string& key) {

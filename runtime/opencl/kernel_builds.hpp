@@ -31,6 +31,7 @@ CompilerTarget compiler_target(const Device& device);
 struct BuiltProgram {
     std::shared_ptr<const cl::Program> program;
     bool is_from_cache = false;
+    double ms = 0;  ///< the milliseconds that it took
 };
 
 /// A program of a driver other than PoCL from the cache, or compiled and kept there. Throws as
@@ -64,7 +65,7 @@ class KernelBuilds {
                                            const KernelPart& part, const ProgramText& whole);
 
     /// Runs `build`, which makes the program with this key, in another thread, unless that was
-    /// begun before.
+    /// begun before or no thread can be started.
     void begin(const std::string& key, std::function<BuiltProgram()> build);
 
     /// Waits for the program of `begin` with this key, which is begun anew by the next call of it.

@@ -231,7 +231,7 @@ void Program::foresee(const Device& device, const ForeseenProgram& program) {
         const KernelSource& source = kernel_source(file);
         const auto locked = device.lock();
         const std::string options = build_options(device, source, program.defines);
-        if (device.programs().contains(program_key(source, options))) return;
+        if (device.find_program(program_key(source, options))()) return;
     }
     const KernelSource source = kernel_source(program.files);
     CompileJob job{

@@ -133,8 +133,8 @@ BuiltProgram build_in_pocl_folder(const CompilerTarget& target, const std::strin
     return built;
 }
 
-BuiltProgram build(const CompilerTarget& target, const std::string& label,
-                   const ProgramText& text) {
+BuiltProgram build_or_read(const CompilerTarget& target, const std::string& label,
+                           const ProgramText& text) {
     switch (driver_quirks(target.info.platform).keeping) {
         case ProgramKeeping::pocl_folder:
             return build_in_pocl_folder(target, label, text);
@@ -144,6 +144,16 @@ BuiltProgram build(const CompilerTarget& target, const std::string& label,
             break;
     }
     return build_with_binary(target, label, text);
+}
+
+BuiltProgram build(const CompilerTarget& target, const std::string& label,
+                   const ProgramText& text) {
+    const auto start = std::chrono::steady_clock::now();
+    BuiltProgram built = build_or_read(target, label, text);
+    const std::chrono::duration<double, std::milli> passed =
+        std::chrono::steady_clock::now() - start;
+    built.ms = passed.count();
+    return built;
 }
 
 }  // namespace
@@ -216,10 +226,11 @@ BuiltProgram build_with_binary(const CompilerTarget& target, const std::string& 
 }
 
 cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text) {
-    const auto start = std::chrono::steady_clock::now();
+    DeviceCounters& counters = device.counters();
     BuiltProgram built;
     try {
         auto begun = device.kernel_builds().take(key_of(device.info(), "program", text));
+        counters.programs_begun += uint64_t(begun.has_value());
         built = begun ? std::move(*begun) : build(compiler_target(device), label, text);
     } catch (const Error& error) {
         throw Error(ErrorKind::build, "{} does not compile on \"{}\": {}", label,
@@ -227,14 +238,12 @@ cl::Program build_program(const Device& device, const std::string& label, const 
     } catch (const cl::Error& error) {
         throw_device_error(error, device.info(), "compiling " + label);
     }
-    DeviceCounters& counters = device.counters();
     ++counters.programs_built;
     if (built.is_from_cache)
         ++counters.programs_from_cache;
     else
         device.note_fresh(*built.program);
-    counters.build_ms +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    counters.build_ms += built.ms;
     return *built.program;
 }
 

@@ -14,6 +14,7 @@
 #include "error.hpp"
 #include "image.hpp"
 #include "process.hpp"
+#include "quilt.hpp"
 #include "scene.hpp"
 #include "warning.hpp"
 
@@ -71,6 +72,7 @@ struct Plan {
     double device_bytes = 0;          ///< bytes of the device that can be used
     double largest_buffer_bytes = 0;  ///< bytes of the largest buffer of any stage
     double host_bytes = 0;            ///< bytes of main memory, besides the device's and the driver
+    double views_bytes = 0;           ///< bytes of a quilt's views, part of host_bytes
     /// Bytes of main memory that the whole process takes, at most: the program, the OpenCL driver
     /// and its compiler, `host_bytes` and, on CPUs, what the device takes.
     double process_bytes = 0;
@@ -85,12 +87,12 @@ struct Plan {
 
 /// The assumptions of a plan.
 struct PlanOptions {
-    std::vector<int> frames{};  ///< frames to plan; empty: all of the animation
-    Channels channels{};        ///< channels of the images
-    bool image = true;          ///< true: flat images are wanted
-    bool volume = false;        ///< true: volumetric images are wanted
-    int views = 1;              ///< views of a quilt, which main memory holds together
-    CacheOptions cache{};       ///< cache with known models, which needn't be read
+    std::vector<int> frames{};     ///< frames to plan; empty: all of the animation
+    Channels channels{};           ///< channels of the images
+    bool image = true;             ///< true: flat images are wanted
+    bool volume = false;           ///< true: volumetric images are wanted
+    std::optional<Quilt> quilt{};  ///< the image is a quilt, whose views main memory holds
+    CacheOptions cache{};          ///< cache with known models, which needn't be read
     /// Called with the number of frames that are planned, and of all.
     std::function<void(size_t done, size_t frames)> progress{};
 };
@@ -98,8 +100,9 @@ struct PlanOptions {
 /// Plans frames of a scene on a device. Reads the meshes that they show; takes no memory of the
 /// device.
 ///
-/// Throws Error as `Scene::load` does for values that are wrong at a frame, and Error::limit for
-/// lattices that can't be numbered at all. A scene that merely doesn't fit has a plan like others.
+/// Throws Error as `Scene::load` does for values that are wrong at a frame, as render_quilt does
+/// for quilts that can't be rendered or kept, and Error::limit for lattices that can't be numbered
+/// at all. A scene that merely doesn't fit has a plan like others.
 Plan plan(const Scene& scene, const Device& device, const PlanOptions& options = {});
 
 /// Plans frames for the device that Device::open would open for `selector`, for `all` and `all/N`

@@ -13,6 +13,7 @@
 #include "device.hpp"
 #include "image.hpp"
 #include "process.hpp"
+#include "quilt.hpp"
 #include "scene.hpp"
 #include "statistics.hpp"
 #include "volume.hpp"
@@ -62,23 +63,6 @@ Image render_image(const Scene& scene, const std::vector<Device>& devices, int f
 Volume render_volume(const Scene& scene, const std::vector<Device>& devices, int frame = 1,
                      const RenderOptions& options = {}, Statistics* statistics = nullptr);
 
-/// Views of a light-field display: from positions in a row, through one window.
-struct Quilt {
-    int columns = 8;   ///< columns of views in the image
-    int rows = 6;      ///< rows of views; at most 1,000 views in all
-    double cone = 40;  ///< degrees between the outermost positions, as seen from the window
-    double focus = 0;  ///< metres from the observer to the window, which is the plane of the
-                       ///< screen; 0: to the observer's focus, else to the world's middle
-    /// Metres between the outermost positions, instead of `cone`, as between the eyes of a stereo
-    /// pair with two columns and one row; 0: `cone` counts.
-    double separation = 0;
-};
-
-/// The end of the names of a quilt's files before ".png", by which players recognize it: its
-/// columns, its rows and the proportions of its views, as in "_qs8x6a0.75". Pixels are
-/// `pixel_aspect` times as wide as high.
-std::string quilt_suffix(const Quilt& quilt, Size view, double pixel_aspect = 1);
-
 /// Renders a frame's views and lays them side by side: the leftmost at the bottom left, the
 /// rightmost at the top right. The scene's image is the size of one. The observer needs a display
 /// that is a pyramid. A target of noise counts for each view, and its seconds for all. Statistics,
@@ -96,7 +80,7 @@ std::vector<Image> render_views(const Scene& scene, const std::vector<Device>& d
                                 Statistics* statistics = nullptr);
 
 /// The image that render_quilt makes of the views of render_views. Throws Error::usage for other
-/// numbers or sizes of images.
+/// numbers or sizes of images, and Error::limit where main memory has no room for it.
 Image join_views(const std::vector<Image>& views, const Quilt& quilt);
 
 /// A frame that was rendered. Results that the job doesn't ask for are empty.

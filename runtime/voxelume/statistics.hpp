@@ -103,7 +103,7 @@ struct DeviceStatistics {
 /// The work of a run: sums over its frames and devices; for sizes, the maximum over its frames.
 struct Statistics {
     std::vector<DeviceStatistics> devices{};          ///< devices that rendered
-    Size size{};                                      ///< pixels of an image
+    Size size{};                                      ///< pixels of an image, or of a view
     bool images = true;                               ///< false: volumetric images alone
     int bands = 1;                                    ///< bands of each image; 1: it was whole
     std::optional<std::array<int, 3>> volume_size{};  ///< voxels of a volumetric image, if any
@@ -120,7 +120,7 @@ struct Statistics {
     double total_seconds = 0;     ///< seconds by the clock
     /// Frame from which on none overlapped, for lack of memory.
     std::optional<int> one_by_one_from;
-    std::vector<FrameStatistics> frames{};  ///< one for each frame
+    std::vector<FrameStatistics> frames{};  ///< one for each frame, or for each view of a quilt
     std::vector<Warning> warnings{};        ///< probable mistakes, each once
 
     // Counters of the devices since they were opened.
@@ -131,7 +131,7 @@ struct Statistics {
     std::map<std::string, uint64_t> allocated_bytes{};  ///< bytes of each buffer
     uint64_t programs_made = 0;                         ///< OpenCL programs made ready
     uint64_t programs_from_cache = 0;  ///< programs among these, not compiled again
-    double programs_ms = 0;            ///< milliseconds to make them ready
+    double programs_ms = 0;            ///< milliseconds to make them ready, perhaps beside others
 };
 
 /// Adds those of a later run on the same devices: counts and seconds are summed, sizes are the

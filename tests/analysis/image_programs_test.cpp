@@ -82,6 +82,21 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ForeseenImages,
                          testing::Values("bunny", "cornell", "cubes", "still_life", "voxels",
                                          "whitted"));
 
+TEST(ForeseenImage, OfAnEarlierRunIsMadeReadyWhileTheWorldIsBuilt) {
+    const Device first = Device::open("cpu");
+    if (!keeps_pocl_folder(first.info())) GTEST_SKIP() << "this driver isn't PoCL";
+    const Scene scene = small_scene("bunny", {96, 72}, 256);
+    RenderReport report;
+    render(first, scene, report);
+    keep_compiled_kernels(first.info());
+    const Device second = Device::open("cpu");  // has a context of its own
+    render(second, scene, report);
+    EXPECT_EQ(second.counters().programs_begun, 1u);
+    EXPECT_GE(second.counters().programs_from_cache, 1u);
+    render(second, scene, report);
+    EXPECT_EQ(second.counters().programs_begun, 1u) << "it is ready";
+}
+
 TEST(ForeseenImage, WithoutColourIsMadeByWhatIsForeseen) {
     if (!keeps_pocl_folder(Device::open("cpu").info())) GTEST_SKIP() << "this driver isn't PoCL";
     Scene scene = small_scene("bunny", {96, 72}, 256);

@@ -2,6 +2,8 @@
 // Quilts and stereo pairs that callers get.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "tests/api/api_fixture.hpp"
 
 namespace voxelume::v1 {
@@ -51,6 +53,28 @@ TEST_F(ApiQuilt, OfViewsIsWhatIsRenderedAtOnce) {
         EXPECT_EQ(joined.plane("G")[i], views[x / 12].plane("G")[12 * y + x % 12]);
     }
     EXPECT_NE(views[0].encode(".exr"), views[1].encode(".exr"));
+}
+
+TEST_F(ApiQuilt, StatisticsOfLaterRunsAreAdded) {
+    Statistics sum, one;
+    one.frames.resize(2);
+    one.rays.sight_rays = 5;
+    one.rays.noise = 0.3;
+    one.voxels = 7;
+    one.warnings = {{.where = "here", .text = "wrong"}};
+    one.launches["a"] = 1;
+    add_statistics(one, sum);
+    one.frames.resize(1);
+    one.rays.noise = 0.6;
+    one.voxels = 6;
+    one.launches["a"] = 2;
+    add_statistics(one, sum);
+    EXPECT_EQ(sum.frames.size(), 3u);
+    EXPECT_EQ(sum.rays.sight_rays, 10u);
+    EXPECT_DOUBLE_EQ(*sum.rays.noise, std::sqrt((2 * 0.09 + 0.36) / 3));
+    EXPECT_EQ(sum.voxels, 7u);
+    EXPECT_EQ(sum.warnings.size(), 1u);
+    EXPECT_EQ(sum.launches["a"], 2u) << "counters are since the device was opened";
 }
 
 TEST_F(ApiQuilt, RefusesOtherViewsAndSeparations) {

@@ -44,6 +44,8 @@ TEST_F(MainMemory, IsLessByWhatIsClaimed) {
         EXPECT_EQ(main_memory(), whole - 1024);
         const MainMemoryClaim all(whole);
         EXPECT_EQ(main_memory(), 0u);
+        EXPECT_EQ(claimed_memory(), whole + 1024);
+        EXPECT_TRUE(has_room_for(1)) << "what is held of a claim would count twice";
     }
     EXPECT_EQ(main_memory(), whole);
 }

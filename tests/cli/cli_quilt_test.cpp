@@ -134,7 +134,10 @@ TEST_F(CliQuiltTest, FinishedFramesStay) {
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     EXPECT_THAT(resumed.err, HasSubstr("1 of 2 frames are there already"));
     EXPECT_EQ(bytes_of(name(1)), first);
-    EXPECT_THAT(run(line + "--resume").err, HasSubstr("2 of 2 frames are there already"));
+    const ProgramResult nothing = run(line + "--resume -v --stats-json s.json");
+    EXPECT_EQ(nothing.exit_code, 0);
+    EXPECT_THAT(nothing.err, HasSubstr("2 of 2 frames are there already"));
+    EXPECT_EQ(Json::parse(bytes_of(folder / "s.json"))["files"], 0);
     // Another cone makes other pictures, and a damaged file isn't one.
     EXPECT_THAT(run(line + "--resume --cone 20").err,
                 HasSubstr("2 files are of another scene, file, option or version"));
@@ -176,6 +179,10 @@ TEST_F(CliQuiltTest, ItsStatisticsAreSumsOfItsViews) {
     EXPECT_EQ(both["frames"][2]["frame"], 1);
     EXPECT_EQ(both["frames"][3]["frame"], 2);
     EXPECT_EQ(both["launches"]["resolve_pixels"], 6 * one["launches"]["resolve_pixels"].get<int>());
+    const Json& seconds = both["seconds"];
+    EXPECT_GT(seconds["open"].get<double>(), 0.001) << "opening the device belongs to it";
+    EXPECT_GT(seconds["total"].get<double>(),
+              seconds["open"].get<double>() + seconds["image"].get<double>());
     ASSERT_EQ(run("render scene.json -o e_{eye}.png --stereo 0.1" + options).exit_code, 0);
     EXPECT_EQ(Json::parse(bytes_of(folder / "s.json"))["files"], 2);
 }
@@ -189,6 +196,8 @@ TEST_F(CliQuiltTest, WhatItTakesIsToldAndKeptToTheLimit) {
         const std::string text = result.out.substr(at + 13, 20);
         return std::stod(text) * (text.find("GB") < text.find("MB") ? 1e3 : 1);
     };
+    const ProgramResult told = run(line + "--quilt 8x8");
+    EXPECT_THAT(told.out, testing::ContainsRegex("views +1.1 GB"));
     // Each pixel takes four numbers of four bytes.
     EXPECT_NEAR(process_mb("--quilt 8x8") - process_mb(""), 64 * 16 * 1.048576, 60);
     EXPECT_THAT(expect_failure(8, line + "--quilt 8x8 --memory-limit 1GB"),
@@ -198,6 +207,16 @@ TEST_F(CliQuiltTest, WhatItTakesIsToldAndKeptToTheLimit) {
             8, "render scene.json -o q.png --size 1024x1024 --quilt 8x8 --memory-limit 1GB"),
         HasSubstr("ask for smaller views"));
     EXPECT_FALSE(std::filesystem::exists(folder / "q_qs8x8a1.png"));
+    EXPECT_THAT(run(line + "--quilt 8x8 --memory-limit 1.4GB").err,
+                HasSubstr("may take 326 MB beside the 1.1 GB of a quilt's views"));
+    EXPECT_THAT(expect_failure(2, line + "--quilt 0x2"), HasSubstr("COLUMNSxROWS"));
+    write_scene([](Json& scene) {
+        scene["observer"]["display"] = {{"shape", "box"}, {"size", {3, 2, 1}}, {"near", 1}};
+        scene["observer"]["display"]["voxels"] = {16, 12, 9};
+    });
+    const std::string refusal = "an observer whose display is a pyramid";
+    EXPECT_THAT(expect_failure(2, line + "--quilt 2x2"), HasSubstr(refusal));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o q.png --quilt 2x2"), HasSubstr(refusal));
 }
 
 TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {

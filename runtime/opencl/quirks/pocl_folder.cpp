@@ -226,7 +226,9 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     }
     if (folder.empty()) program.parts.clear();
     if (!folder.empty()) {
-        publish_changes(cache);  // includes kernels that this process compiled
+        // What this process compiled for other programs may be new in entries that are restored.
+        if (publish_changes(cache))
+            for (ProgramPart& part : program.parts) part.published = 0;
         take_kernels(cache, program);
         if (!unpacked.empty())
             program.published = files_worth_keeping(folder_, program.folder).size();
@@ -252,12 +254,15 @@ void PoclFolder::publish_kernels(const DiskCache& cache, ProgramFiles& program) 
     }
 }
 
-void PoclFolder::publish_changes(const DiskCache& cache) {
+/// Returns true if there was something to write.
+bool PoclFolder::publish_changes(const DiskCache& cache) {
+    bool is_changed = false;
     for (auto& [key, program] : programs_) {
         if (program.folder.empty()) continue;
         std::vector<fs::path> files = files_worth_keeping(folder_, program.folder);
         if (files.size() <= program.published) continue;
         program.published = files.size();
+        is_changed = true;
         try {
             publish_kernels(cache, program);
         } catch (const std::exception&) {
@@ -266,6 +271,7 @@ void PoclFolder::publish_changes(const DiskCache& cache) {
         std::erase_if(files, [](const fs::path& file) { return file.extension() == ".so"; });
         cache.write(key, packed(folder_, files));
     }
+    return is_changed;
 }
 
 void PoclFolder::publish(const DiskCache& cache) {

@@ -26,7 +26,7 @@ int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco:
 }
 
 std::string draco_data(const Sheet& sheet, int method, int bits,
-                       draco::DataType colors_as = draco::DT_UINT8) {
+                       draco::DataType colors_as = draco::DT_UINT8, bool is_named = false) {
     draco::Mesh mesh;
     mesh.set_num_points(uint32_t(sheet.positions.size()));
     for (size_t i = 0; i < sheet.indices.size(); i += 3)
@@ -39,6 +39,9 @@ std::string draco_data(const Sheet& sheet, int method, int bits,
         for (const float value : {p.x * 14, p.y * 25, 51.0f}) colors.push_back(uint8_t(value));
     add_attribute(mesh, draco::GeometryAttribute::COLOR, colors_as, 3, colors.data(),
                   sheet.positions.size());
+    auto metadata = std::make_unique<draco::GeometryMetadata>();
+    metadata->AddEntryString("name", "sheet");
+    if (is_named) mesh.AddMetadata(std::move(metadata));
     draco::Encoder encoder;
     encoder.SetEncodingMethod(method);
     encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
@@ -129,6 +132,17 @@ TEST(Draco, DataThatDeclareTooMuchOrAreOfAnotherVersionAreRefusedUnread) {
     many.replace(13, 1, "\xf0\xff\xff\x7f");
     EXPECT_THAT(refusal_of_gltf(draco_gltf(many, 35, 144)),
                 HasSubstr("its Draco data have 805306320 indices, and its accessor 144"));
+    std::string sequential = draco_data(Sheet(), draco::MESH_SEQUENTIAL_ENCODING, 12);
+    ASSERT_EQ(sequential.substr(11, 2), "\x30\x23");  // 48 faces and 35 points
+    sequential.replace(11, 1, "\xf0\xff\xff\x7f");
+    EXPECT_THAT(refusal_of_gltf(draco_gltf(sequential, 35, 144)),
+                HasSubstr("its Draco data have 805306320 indices, and its accessor 144"));
+    for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
+        const std::string named = draco_data(Sheet(), method, 12, draco::DT_UINT8, true);
+        ASSERT_NE(named.find("sheet"), std::string::npos);
+        EXPECT_THAT(refusal_of_gltf(draco_gltf(named, 35, 141)), HasSubstr("have 144 indices"));
+        EXPECT_EQ(gltf_mesh(parsed_gltf(draco_gltf(named, 35, 144)), 0).positions.size(), 35u);
+    }
     EXPECT_THAT(refusal_of_gltf(draco_gltf(data.substr(0, 12), 35, 144)),
                 HasSubstr("its Draco data end early"));
     data[5] = 1;
