@@ -14,7 +14,6 @@
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/api/border/process.hpp"
-#include "runtime/api/quilt.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
 #include "runtime/assets/model_frame.hpp"

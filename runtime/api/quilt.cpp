@@ -14,7 +14,6 @@
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/api/frame_hash.hpp"
-#include "runtime/api/quilt.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/base/files/cache_key.hpp"
 #include "runtime/base/main_memory.hpp"

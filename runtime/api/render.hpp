@@ -8,6 +8,7 @@
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/voxelume/image.hpp"
+#include "runtime/voxelume/quilt.hpp"
 #include "runtime/voxelume/statistics.hpp"
 
 namespace voxelume::api {
@@ -38,5 +39,8 @@ v1::FrameStatistics statistics_of(const FrameReport& frame);
 
 /// The statistics of a run of frames on its devices, without its files and seconds.
 v1::Statistics statistics_of(std::span<const FrameReport> frames, std::span<const Device> devices);
+
+/// Throws what v1::render_quilt would throw for the frame's observer before it renders a view.
+void check_quilt(const Scene& scene, const v1::Quilt& quilt, int frame);
 
 }  // namespace voxelume::api
