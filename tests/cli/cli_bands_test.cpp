@@ -146,7 +146,7 @@ TEST_F(CliBandsTest, WhatNeedsAWholeImageIsRefusedWithWhatToDo) {
     };
     EXPECT_THAT(refused("-o a.exr --time 5"), HasSubstr("ask for a noise or for samples instead"));
     EXPECT_THAT(refused("-o -"), HasSubstr("only files are written in bands: write it to a file"));
-    EXPECT_THAT(refused("-o a.png --stereo 0.1"), HasSubstr("or render a smaller one"));
+    EXPECT_THAT(refused("-o a.png --stereo 0.1"), HasSubstr("ask for smaller views"));
     const ProgramResult check =
         run(std::string("check scene.json --time 5 --size 3000x2000") + kLimit);
     EXPECT_EQ(check.exit_code, 8) << check.err;
