@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/render/frame_files.hpp"
+#include "cli/render/render_progress.hpp"
 
 namespace voxelume::cli {
 

@@ -31,7 +31,7 @@ std::string larger_voxels(const glm::dvec3& edge, double factor) {
 
 /// The main memory that the process may take: "2 GB", or what views of a quilt leave of it.
 std::string allowed_text() {
-    const std::string bytes = bytes_text(double(main_memory()));
+    std::string bytes = bytes_text(double(main_memory()));
     const uint64_t claimed = claimed_memory();
     if (claimed == 0) return bytes;
     return fmt::format("{} beside the {} of a quilt's views", bytes, bytes_text(double(claimed)));
