@@ -12,7 +12,9 @@
 #include <fstream>
 #include <future>
 #include <iterator>
+#include <mutex>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -29,6 +31,10 @@ namespace fs = std::filesystem;
 std::atomic<const PoclFolder*> existing_folder = nullptr;
 
 std::atomic<bool> folder_is_allowed = true;
+
+/// Held while a file is restored, and while the folder is declared removed: then none is restored.
+std::mutex unpacking;
+bool is_removed = false;
 
 /// The folder of the process that this helper works for; empty in other processes.
 fs::path& helped_folder() {
@@ -77,6 +83,8 @@ std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
     for (const auto& [name, content] : packed_files(bytes)) {
         paths.emplace_back(name);
         const fs::path path = root / name;
+        const std::lock_guard lock(unpacking);
+        if (is_removed) throw std::runtime_error("the process ends");
         fs::create_directories(path.parent_path());
         if (!fs::exists(path)) write_whole(path, content);
     }
@@ -116,6 +124,10 @@ PoclFolder& PoclFolder::instance() {
 void PoclFolder::remove() {
     const PoclFolder* const folder = existing_folder;
     if (folder == nullptr || folder->folder_.empty()) return;
+    {
+        const std::lock_guard lock(unpacking);
+        is_removed = true;
+    }
     // PoCL may be compiling in another thread, and makes its folders again unless a file is in the
     // way.
     const fs::path moved = folder->folder_.string() + "-ended";
