@@ -12,10 +12,7 @@
 #include <fstream>
 #include <future>
 #include <iterator>
-#include <mutex>
-#include <set>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -32,7 +29,7 @@ std::atomic<const PoclFolder*> existing_folder = nullptr;
 
 std::atomic<bool> folder_is_allowed = true;
 
-/// Held while a file is restored, and while the folder is declared removed: then none is restored.
+/// Held while a file is restored. None is any more once the folder is removed.
 std::mutex unpacking;
 bool is_removed = false;
 
@@ -230,20 +227,17 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     build();
     const fs::path folder = only_new(before, built_folders());
     ProgramFiles program = restoring.get();
-    if (folder != program.folder) {
-        // An entry for a folder other than PoCL's is useless and gets replaced.
-        unpacked.clear();
-        program.folder = folder;
-        for (ProgramPart& part : program.parts) part.published = 0;
-    }
-    if (folder.empty()) program.parts.clear();
-    if (!folder.empty()) {
+    // An entry for a folder other than PoCL's is useless and gets replaced.
+    if (folder != program.folder) unpacked.clear();
+    if (folder.empty()) {
+        program = {};
+    } else {
         // What this process compiled for other programs may be new in entries that are restored.
-        if (publish_changes(cache))
+        if (publish_changes(cache) || folder != program.folder)
             for (ProgramPart& part : program.parts) part.published = 0;
+        program.folder = folder;
         take_kernels(cache, program);
-        if (!unpacked.empty())
-            program.published = files_worth_keeping(folder_, program.folder).size();
+        if (!unpacked.empty()) program.published = files_worth_keeping(folder_, folder).size();
     }
     programs_[key] = std::move(program);
     return !unpacked.empty();
@@ -266,7 +260,6 @@ void PoclFolder::publish_kernels(const DiskCache& cache, ProgramFiles& program) 
     }
 }
 
-/// Returns true if there was something to write.
 bool PoclFolder::publish_changes(const DiskCache& cache) {
     bool is_changed = false;
     for (auto& [key, program] : programs_) {

@@ -85,7 +85,7 @@ class PoclFolder {
     std::set<std::filesystem::path> built_folders() const;
     void take_kernels(const DiskCache& cache, ProgramFiles& program) const;
     void publish_kernels(const DiskCache& cache, ProgramFiles& program) const;
-    bool publish_changes(const DiskCache& cache);
+    bool publish_changes(const DiskCache& cache);  ///< false: there were none
 
     std::mutex mutex_;
     std::filesystem::path folder_;  ///< empty if the user chose PoCL's folder
