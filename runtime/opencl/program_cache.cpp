@@ -190,7 +190,7 @@ void build_ahead(const Device& device, CompileJob job) {
 }
 
 bool compiles_kernels_alone(const DeviceInfo& info) {
-    return info.kind == DeviceKind::gpu && driver_quirks(info.platform).compiles_with_programs;
+    return info.kind == DeviceKind::gpu && driver_quirks(info.platform).compiles_side_by_side;
 }
 
 std::string without_constants(std::string_view options) {

@@ -43,9 +43,9 @@ bool is_program_kept(const DeviceInfo& info, const ProgramText& text);
 /// lacks it, lets a helper compile it and its kernels into the cache.
 void build_ahead(const Device& device, CompileJob job);
 
-/// True for GPUs, whose drivers compile kernels when their program is built: then each is compiled
-/// alone, see kernel_builds.hpp. Intel's driver for CPUs compiles one program at a time, and takes
-/// 23 instead of 14 s for the kernels of scenes/whitted.json one by one.
+/// True for GPUs whose drivers compile programs side by side: then each kernel is compiled alone,
+/// see kernel_builds.hpp. Intel's driver for CPUs compiles one program at a time, and takes 23
+/// instead of 14 s for the kernels of scenes/whitted.json one by one.
 bool compiles_kernels_alone(const DeviceInfo& info);
 
 /// The options of a compiler without its -D constants.

@@ -8,12 +8,13 @@ namespace {
 
 TEST(DriverQuirks, AreThoseOfThePlatformsRowAndNobodyElses) {
     EXPECT_EQ(driver_quirks("Oclgrind").keeping, ProgramKeeping::none);
+    EXPECT_FALSE(driver_quirks("Oclgrind").compiles_side_by_side);
     EXPECT_EQ(driver_quirks("Portable Computing Language").keeping, ProgramKeeping::pocl_folder);
     for (const char* const name : {"", "NVIDIA CUDA", "Intel(R) OpenCL", "Oclgrind 2"}) {
         const DriverQuirks& quirks = driver_quirks(name);
         EXPECT_EQ(quirks.keeping, ProgramKeeping::binaries) << name;
         EXPECT_TRUE(quirks.build_options.empty()) << name;
-        EXPECT_TRUE(quirks.compiles_with_programs) << name;
+        EXPECT_TRUE(quirks.compiles_side_by_side) << name;
         EXPECT_FALSE(quirks.is_slow_to_declare) << name;
     }
 }

@@ -14,17 +14,19 @@ constexpr std::array kDrivers = {
     // "pthread-<processor as LLVM knows it>-<processor>".
     DriverQuirks{.platform = "Portable Computing Language",
                  .keeping = ProgramKeeping::pocl_folder,
-                 .compiles_with_programs = false,
+                 .compiles_side_by_side = false,
                  .is_slow_to_declare = true,
                  .generic_name = "-generic-",
                  .note_on_generic =
                      "PoCL doesn't know this processor and compiles for a generic one, which is "
                      "slow: use a newer PoCL"},
     // Oclgrind 21.10 interprets LLVM code, but not the alias hints that LLVM adds as it inlines. A
-    // binary would lose the line numbers.
+    // binary would lose the line numbers. Programs of a context share LLVM's objects, without a
+    // lock: two that are built at the same time end the process.
     DriverQuirks{.platform = "Oclgrind",
                  .keeping = ProgramKeeping::none,
-                 .build_options = " -cl-opt-disable -DOCLGRIND"},
+                 .build_options = " -cl-opt-disable -DOCLGRIND",
+                 .compiles_side_by_side = false},
 };
 
 struct Maker {

@@ -20,9 +20,9 @@ enum class ProgramKeeping : uint8_t {
 struct DriverQuirks {
     std::string_view platform{};  ///< CL_PLATFORM_NAME; empty: every platform without a row
     ProgramKeeping keeping = ProgramKeeping::binaries;
-    std::string_view build_options{};    ///< appended to the options of every program
-    bool compiles_with_programs = true;  ///< compiles GPUs' kernels then, not at first launch
-    bool is_slow_to_declare = false;     ///< the driver reads its own declarations for each program
+    std::string_view build_options{};   ///< appended to the options of every program
+    bool compiles_side_by_side = true;  ///< GPUs' kernels may be compiled in threads of their own
+    bool is_slow_to_declare = false;    ///< the driver reads its own declarations for each program
     std::string_view generic_name{};  ///< part of the names of devices that the driver doesn't know
                                       ///< and compiles for generically; empty: unknown
     std::string_view note_on_generic{};  ///< note for users of such devices
