@@ -43,8 +43,8 @@ glm::dvec3 rounded(const glm::dvec3& v, int digits) {
 
 std::string NameList::unique(const std::string& wanted) {
     std::string name = wanted;
-    for (int number = 2; !names_.insert(name).second; ++number)
-        name = fmt::format("{} {}", wanted, number);
+    int& last = numbers_.try_emplace(wanted, 1).first->second;
+    while (!names_.insert(name).second) name = fmt::format("{} {}", wanted, ++last);
     return name;
 }
 

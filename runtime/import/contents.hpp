@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -60,6 +61,7 @@ class NameList {
 
   private:
     std::set<std::string> names_;
+    std::map<std::string, int> numbers_;  ///< the last that stands behind each wanted name
 };
 
 /// A file to be shown as a scene.

@@ -103,7 +103,7 @@ class SceneOfGltf {
   private:
     void add_object(const GltfNode& node) {
         const GltfValue mesh = root_.item("meshes", size_t(node.mesh));
-        if (gltf_primitives(mesh).empty()) return;
+        if (!draws(node.mesh)) return;
         // Its joints alone place a mesh that has a skin.
         const bool is_skinned = node.skin >= 0;
         std::vector<glm::dmat4> maps =
@@ -132,6 +132,13 @@ class SceneOfGltf {
             if (!is_skinned && (motion_.moves(node.number) || !has_area(summary)))
                 shown.stretch = std::max(shown.stretch, stretch_of(glm::dmat3(map)).max);
         }
+    }
+
+    /// True if a mesh has something to draw; each mesh is asked once.
+    bool draws(int mesh) {
+        const auto [known, is_new] = drawn_.try_emplace(mesh, false);
+        if (is_new) known->second = !gltf_primitives(root_.item("meshes", size_t(mesh))).empty();
+        return known->second;
     }
 
     /// The keys that place the object. Its tracks are added to the contents.
@@ -240,7 +247,8 @@ class SceneOfGltf {
     GltfValue root_;
     GltfClip clip_;
     GltfMotion motion_;
-    std::set<int> unlit_;  ///< materials
+    std::set<int> unlit_;        ///< materials
+    std::map<int, bool> drawn_;  ///< by mesh: see draws()
     GltfFrames frames_;
     Contents contents_;
     std::map<std::array<int, 3>, size_t> model_numbers_;  ///< by mesh, owner of weights, skin

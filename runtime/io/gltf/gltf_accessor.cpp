@@ -189,8 +189,8 @@ GltfValues gltf_values(const GltfFile& file, const GltfValue& from, const char* 
     found.components = kind->components;
     if (!take_decoded(file, accessor, size_t(from.index(key, SIZE_MAX)), found.count, elements))
         place(file, accessor, found.count, elements);
-    if (!elements.first && found.count > (uint64_t{1} << 26))
-        accessor.fail("more than 2^26 elements without a buffer view");
+    if (!elements.first && found.count > (uint64_t{1} << 24))
+        accessor.fail("more than 2^24 elements without a buffer view");
     reserve_in_huge_pages(found.values, found.count * uint64_t(found.components));
     found.values.resize(found.count * uint64_t(found.components));
     const auto store = [&](uint64_t index, const Elements& of, uint64_t element) {
@@ -226,8 +226,8 @@ std::vector<uint32_t> gltf_indices(const GltfFile& file, const GltfValue& from, 
     } else {
         place(file, accessor, count, elements);
     }
-    if (!elements.first && count > (uint64_t{1} << 26))
-        accessor.fail("more than 2^26 elements without a buffer view");
+    if (!elements.first && count > (uint64_t{1} << 24))
+        accessor.fail("more than 2^24 elements without a buffer view");
     std::vector<uint32_t> indices;
     reserve_in_huge_pages(indices, count);
     indices.resize(count);

@@ -118,6 +118,12 @@ GltfFile::GltfFile(std::string bytes, const std::filesystem::path& path)
     decode_gltf_primitives(*this, decoded_);
 }
 
+uint64_t GltfFile::bytes() const {
+    uint64_t sum = bytes_.size();
+    for (const std::string& buffer : read_) sum += buffer.size();
+    return sum;
+}
+
 void GltfFile::parse_json(std::string_view text) {
     if (text.size() > kMaxJson)
         throw Error(ErrorKind::limit, "{}: {} bytes of JSON; at most 64 MiB are read",

@@ -69,6 +69,8 @@ class GltfFile {
     GltfFile& operator=(const GltfFile&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
+    /// The bytes of the file and of those that hold its buffers.
+    uint64_t bytes() const;
     GltfValue root() const { return {name_, json_, ""}; }
     /// The bytes of a buffer view, decoded. `which` names it.
     std::span<const uint8_t> view(const GltfValue& which, const char* key) const;

@@ -60,9 +60,32 @@ void append_triangles(const std::vector<uint32_t>& order, uint64_t mode, uint32_
         for (size_t i = 1; i + 2 <= count; ++i) add(i, i + 1, 0);
 }
 
+/// What the reading of a primitive takes, in vertices.
+constexpr uint64_t kPrimitiveCost = 512;
+
+/// The vertices and indices that the primitives of a file's nodes may have together: a small file
+/// can repeat one of them without end. Files of scenes that people make stay far below.
+class SceneBudget {
+  public:
+    explicit SceneBudget(const GltfFile& file)
+        : file_(file), left_((uint64_t{1} << 25) + 128 * file.bytes()) {}
+    void take(uint64_t elements) {
+        if (elements > left_)
+            throw Error(ErrorKind::limit,
+                        "{}: its nodes show more vertices and indices than {} bytes may stand for: "
+                        "fewer of them may show one mesh",
+                        SourcePlace(file_.path().string()), file_.bytes());
+        left_ -= elements;
+    }
+
+  private:
+    const GltfFile& file_;
+    uint64_t left_;
+};
+
 class MeshBuilder {
   public:
-    explicit MeshBuilder(const GltfFile& file) : file_(file), textures_(file) {}
+    explicit MeshBuilder(const GltfFile& file) : file_(file), textures_(file), budget_(file) {}
 
     /// Prepares for a mesh. All meshes are to be expected before the first is added.
     void expect_mesh(int number) { textures_.expect_mesh(number); }
@@ -107,6 +130,8 @@ class MeshBuilder {
         if (mode > kFan) primitive.fail(fmt::format("{} is no mode", mode));
         if (primitive.has_extension("KHR_draco_mesh_compression")) mode = kTriangles;  // by now
         const GltfValue attributes = primitive.at("attributes");
+        budget_.take(kPrimitiveCost + count_gltf_values(file_, attributes, "POSITION"));
+        if (primitive.has("indices")) budget_.take(count_gltf_values(file_, primitive, "indices"));
         const GltfValues positions = gltf_values(file_, attributes, "POSITION", {3});
         const size_t base = mesh_.positions.size();
         if (base + positions.count >= kMaxGltfElements) fail_size();
@@ -240,6 +265,7 @@ class MeshBuilder {
 
     const GltfFile& file_;
     GltfTextures textures_;
+    SceneBudget budget_;
     Mesh mesh_;
     std::map<int, uint32_t> groups_;
     std::vector<float> alphas_;  ///< alphas of the current primitive's vertices

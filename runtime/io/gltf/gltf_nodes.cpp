@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 
 #include "runtime/base/error.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
@@ -134,7 +135,7 @@ class Walk {
         found.mesh = node.index("mesh", root_.size("meshes"));
         found.camera = node.index("camera", root_.size("cameras"));
         found.light = node.extension("KHR_lights_punctual").index("light", lights_);
-        if (found.mesh >= 0 && has_gltf_joints(root_.item("meshes", size_t(found.mesh))))
+        if (found.mesh >= 0 && node.has("skin") && has_joints(found.mesh))
             found.skin = node.index("skin", root_.size("skins"));
         if (found.mesh < 0 && found.camera < 0 && found.light < 0) return;
         found.name = node.text("name");
@@ -144,6 +145,13 @@ class Walk {
             add(found);
             found.camera = found.light = -1;
         }
+    }
+
+    /// True if a mesh has joints; each mesh is asked once, however many nodes show it.
+    bool has_joints(int mesh) {
+        const auto [known, is_new] = joints_.try_emplace(mesh, false);
+        if (is_new) known->second = has_gltf_joints(root_.item("meshes", size_t(mesh)));
+        return known->second;
     }
 
     void add(const GltfNode& found) {
@@ -164,6 +172,7 @@ class Walk {
     std::vector<char> seen_;
     std::vector<int> parents_;
     std::vector<Open> open_;
+    std::map<int, bool> joints_;
     std::vector<GltfNode> found_;
 };
 

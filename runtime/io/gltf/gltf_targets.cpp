@@ -54,9 +54,10 @@ void add_offsets(const GltfFile& file, const GltfValue& target, const char* key,
 }  // namespace
 
 size_t count_gltf_targets(const GltfValue& mesh) {
-    size_t count = 0;
-    for (const GltfValue& primitive : mesh.items("primitives"))
-        count = std::max(count, primitive.size("targets"));
+    size_t count = 0;  // of plain JSON, since each node that shows the mesh asks
+    for (const nlohmann::json& primitive : mesh.at("primitives").json())
+        if (const auto targets = primitive.find("targets"); targets != primitive.end())
+            count = std::max(count, targets->size());
     return count;
 }
 

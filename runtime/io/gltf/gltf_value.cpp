@@ -66,8 +66,13 @@ GltfValue GltfValue::item(const char* key, size_t number) const {
 
 std::vector<GltfValue> GltfValue::items(const char* key) const {
     std::vector<GltfValue> items;
-    items.reserve(size(key));
-    for (size_t i = 0; i < size(key); ++i) items.push_back(item(key, i));
+    const size_t count = size(key);
+    if (count == 0) return items;
+    const nlohmann::json& list = *find(key);
+    const std::string place = member(key, list).place();
+    items.reserve(count);
+    for (size_t i = 0; i < count; ++i)
+        items.emplace_back(*file_, list[i], fmt::format("{}[{}]", place, i));
     return items;
 }
 

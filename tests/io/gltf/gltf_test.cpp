@@ -165,6 +165,30 @@ TEST(GltfMesh, WholeScenesHaveMeshesInTheirPlacesAndMirrorsTurnedRound) {
                 HasSubstr("has 1 meshes, and none of number 2"));
 }
 
+TEST(GltfMesh, ThatNodesRepeatFarBeyondTheirFilesBytesIsRefused) {
+    GltfWriter writer = triangle_gltf();
+    Json& primitives = writer.json["meshes"][0]["primitives"];
+    primitives = Json(400, Json(primitives[0]));
+    const auto show = [&](size_t times) {
+        writer.json["nodes"] = Json(times, Json{{"mesh", 0}});
+        writer.json["scenes"][0]["nodes"] = Json::array();
+        for (size_t i = 0; i < times; ++i) writer.json["scenes"][0]["nodes"].push_back(i);
+    };
+    show(40);
+    EXPECT_EQ(gltf_mesh(parsed_gltf(writer), 0).triangles.size(), 16000u);
+    show(400);
+    EXPECT_THAT(refusal_of_gltf(writer),
+                HasSubstr("its nodes show more vertices and indices than"));
+}
+
+TEST(GltfNumbers, WithoutBytesAreFewEnough) {
+    GltfWriter writer = triangle_gltf();
+    writer.json["accessors"] = {
+        {{"componentType", 5126}, {"count", (1 << 24) + 1}, {"type", "VEC3"}}};
+    EXPECT_THAT(refusal_of_gltf(writer),
+                HasSubstr("more than 2^24 elements without a buffer view"));
+}
+
 TEST(GltfMesh, PrimitivesHaveTheirMaterialsColorsAndPlaces) {
     GltfWriter writer = triangle_gltf();
     Json& primitives = writer.json["meshes"][0]["primitives"];
