@@ -9,6 +9,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/main_memory.hpp"
+#include "runtime/opencl/quirks/driver_quirks.hpp"
 
 namespace voxelume {
 namespace {
@@ -87,6 +88,8 @@ DeviceInfo settled(DeviceInfo info, int lanes) {
     info.lanes = lanes_for(info, lanes);
     limit_memory(info);
     info.work_group = number_in_environment("VOXELUME_WORK_GROUP");
+    if (const int maximum = driver_quirks(info.platform).max_work_group; maximum > 0)
+        info.work_group = std::min(info.work_group, maximum);
     const auto batch = uint32_t(number_in_environment("VOXELUME_BATCH"));
     // Halves of batches are whole groups of sixteen rays.
     info.batch_rays =

@@ -12,6 +12,7 @@
 
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/base/helper/helper_limits.hpp"
+#include "runtime/base/helper/helper_program.hpp"
 #include "runtime/base/helper/helper_wire.hpp"
 #include "runtime/base/sanitizers.hpp"
 #include "tests/support/file_fixture.hpp"
@@ -19,6 +20,7 @@
 namespace voxelume {
 
 using testing::HasSubstr;
+using testing::Not;
 
 namespace {
 
@@ -99,6 +101,19 @@ TEST_F(HelperProcessTest, ThatIsMissingIsNamed) {
     } catch (const HelperFailure& failure) {
         EXPECT_EQ(failure.cause(), Cause::missing);
         EXPECT_THAT(failure.what(), HasSubstr((folder / "gone can't be started").string()));
+    }
+}
+
+TEST_F(HelperProcessTest, ThatIsntInstalledIsNotTakenFromTheCurrentFolder) {
+    const std::filesystem::path program = helper_program("voxelume-nothing");
+    EXPECT_TRUE(program.is_absolute()) << program;
+    const InputFile input(folder / "in");
+    try {
+        const HelperProcess helper(program, {}, input.descriptor(), 1);
+        FAIL();
+    } catch (const HelperFailure& failure) {
+        EXPECT_THAT(failure.what(), HasSubstr("voxelume-nothing can't be started"));
+        EXPECT_THAT(failure.what(), Not(HasSubstr("/voxelume-nothing")));
     }
 }
 

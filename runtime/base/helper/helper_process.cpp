@@ -45,9 +45,11 @@ int moved_away(int descriptor) {
 }
 
 [[noreturn]] void fail_to_start(const std::filesystem::path& program, int code) {
-    throw HelperFailure(Cause::missing,
-                        fmt::format("{} can't be started: {}; install voxelume again",
-                                    program.string(), std::strerror(code)));
+    throw HelperFailure(
+        Cause::missing,
+        fmt::format("{} can't be started: {}; install voxelume again",
+                    (program.parent_path() == "/" ? program.filename() : program).string(),
+                    std::strerror(code)));
 }
 
 /// Everything that posix_spawn is told: descriptors and signals of the new process.

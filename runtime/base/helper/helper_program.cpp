@@ -41,7 +41,7 @@ std::filesystem::path helper_program(const char* name) {
         std::filesystem::path program = folder / name;
         if (folder.is_absolute() && access(program.c_str(), X_OK) == 0) return program;
     }
-    return name;
+    return std::filesystem::path("/") / name;
 }
 
 }  // namespace voxelume

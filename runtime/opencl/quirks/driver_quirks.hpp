@@ -22,6 +22,7 @@ struct DriverQuirks {
     ProgramKeeping keeping = ProgramKeeping::binaries;
     std::string_view build_options{};   ///< appended to the options of every program
     bool compiles_side_by_side = true;  ///< GPUs' kernels may be compiled in threads of their own
+    int max_work_group = 0;             ///< larger groups get wrong results; 0: none do
     bool is_slow_to_declare = false;    ///< the driver reads its own declarations for each program
     std::string_view generic_name{};  ///< part of the names of devices that the driver doesn't know
                                       ///< and compiles for generically; empty: unknown
