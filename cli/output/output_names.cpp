@@ -26,7 +26,7 @@ std::string fill_in(const std::string& pattern, const Placeholders& placeholders
             std::vector<std::string_view> names;
             for (const auto& [known, value] : placeholders) names.push_back(known);
             fail_usage("{}: {}: there is no placeholder {}{}", command, pattern, quote(name),
-                       suggest(name, names));
+                       name == "eye" ? " without --stereo" : suggest(name, names));
         }
         text += found->second;
         i = close + 1;

@@ -38,7 +38,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--noise", options.noise,
                    "standard error of light at which 4 x 4 pixels, or 16 voxels of a volumetric "
                    "image, have samples enough, of their mean, like 0.02; samples double from 16 "
-                   "to at most --samples, by default 4096")
+                   "to at most --samples, which is at least 32 and by default 4096")
         ->check(in_range(1e-4, 1));
     app.add_option("--time", options.time,
                    "seconds that an image's samples may take, which are doubled as long as time "

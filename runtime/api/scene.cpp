@@ -165,8 +165,8 @@ Scene Scene::with_noise(double error, double seconds, int max_samples) const {
                                   error, seconds);
         if (max_samples < 32 || max_samples > 4096)
             throw voxelume::Error(voxelume::ErrorKind::usage,
-                                  "an image whose noise is measured has from 32 to 4096 samples a "
-                                  "pixel, not {}",
+                                  "an image by noise or time, whose samples double from 16 on, "
+                                  "takes a maximum of 32 to 4096 samples a pixel, not {}",
                                   max_samples);
         voxelume::Scene scene = api::inside(*this);
         scene.render.samples = max_samples;

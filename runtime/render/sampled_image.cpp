@@ -28,33 +28,22 @@ ImageChannels averaged(const ImageChannels& asked) {
             .variance = asked.variance};
 }
 
-/// Adds a tile to ascending ranges.
-void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == tile)
-        ++ranges.back().count;
-    else
-        ranges.push_back({tile, 1});
-}
-
 /// True if an image's tiles may need more samples after the first ones.
 bool is_sampled_again(const Scene& scene) {
     return scene.render.noise.is_given() && scene.render.channels.color;
 }
 
-/// The tiles for which a predicate holds.
-template <class IsTrue>
-std::vector<TileRange> tiles_where(const std::vector<TileRange>& tiles, IsTrue&& is_true) {
-    std::vector<TileRange> result;
-    for (const TileRange& range : tiles)
-        for (uint32_t tile = range.first; tile < range.first + range.count; ++tile)
-            if (is_true(tile)) add_tile(tile, result);
-    return result;
-}
-
-template <class See>
-void for_each_tile(const std::vector<TileRange>& tiles, See&& see) {
-    for (const TileRange& range : tiles)
-        for (uint32_t tile = range.first; tile < range.first + range.count; ++tile) see(tile);
+/// Refines a sixteenth of some tiles to see how long the rest would take: nothing is known of that
+/// where an earlier run made the samples. True if the target has time for the rest, in `tiles`.
+template <class Refine>
+bool has_time_for_rest(std::vector<TileRange>& tiles, const NoiseTarget& target,
+                       NoiseClock::time_point start, Refine&& refine) {
+    const std::vector<TileRange> few = take_sixteenth(tiles);
+    const auto begin = NoiseClock::now();
+    if (!refine(few)) return false;
+    const auto now = NoiseClock::now();
+    const std::chrono::duration<double> spent = now - start, of_few = now - begin;
+    return spent.count() + of_few.count() * count_tiles(tiles) / count_tiles(few) <= target.seconds;
 }
 
 /// The numbers of samples of an image's tiles.
@@ -103,6 +92,12 @@ class TileSamples {
         return sum;
     }
 
+    /// Copies the numbers of some tiles.
+    void give(const std::vector<TileRange>& tiles, std::vector<int>& samples) const {
+        samples.resize(samples_.size());
+        for_each_tile(tiles, [&](uint32_t tile) { samples[tile] = samples_[tile]; });
+    }
+
     /// Writes the channels of samples and noise.
     void show(const ImageChannels& channels, Image& image) const {
         if (channels.samples)
@@ -144,12 +139,30 @@ Image planes_of(const Image& earlier, const ImageChannels& channels) {
     return image;
 }
 
+/// The scene with that many samples, whatever its noise.
+Scene without_target(const Scene& scene, int samples) {
+    Scene part = scene;
+    part.render.scatters_samples = has_scattered_samples(part.render);
+    part.render.noise = {};
+    part.render.earlier = {};
+    part.render.samples = samples;
+    return part;
+}
+
 /// Takes all remaining tiles, for which nothing is to be done.
 void take_all(const Renderer::Tiles& tiles) {
     while (const std::optional<TileRange> range = tiles.share.take(tiles.share.maximum())) {
         tiles.taken.push_back(*range);
         tiles.share.done(*range);
     }
+}
+
+/// The image of an earlier run, with the state of its tiles, which all count as taken.
+Image earlier_image(const RenderSettings& asked, const Renderer::Tiles& tiles, TileSamples& state) {
+    Image image = planes_of(*asked.earlier, asked.channels);
+    take_all(tiles);
+    for_each_tile(tiles.taken, [&](uint32_t tile) { state.set_from(tile, *asked.earlier); });
+    return image;
 }
 
 }  // namespace
@@ -191,20 +204,10 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
     const RenderSettings& asked = scene.render;
     const int maximum = asked.samples, first = std::min(kFirstSamples, maximum);
     const double per_sample = tiles.weight / double(maximum);
-    Scene part = scene;
-    part.render.scatters_samples = has_scattered_samples(part.render);
-    part.render.noise = {};
-    part.render.earlier = {};
-    part.render.samples = first;
+    Scene part = without_target(scene, first);
     TileSamples state(tiles.share.tiles(), first, maximum);
-    Image image;
-    if (asked.earlier) {
-        image = planes_of(*asked.earlier, asked.channels);
-        take_all(tiles);
-        for_each_tile(tiles.taken, [&](uint32_t tile) { state.set_from(tile, *asked.earlier); });
-    } else {
-        image = image_of_tiles(part, world, report, tiles);
-    }
+    Image image = asked.earlier ? earlier_image(asked, tiles, state)
+                                : image_of_tiles(part, world, report, tiles);
     const bool is_measured = given.empty();
     const auto needs_more = [&](uint32_t tile) {
         return is_measured ? state.needs_more(tile, asked.noise, image)
@@ -216,17 +219,14 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
     };
     // Only these channels are averaged. Tiles that aren't rendered again are undefined in `more`.
     part.render.channels = averaged(asked.channels);
-    for (int done = first; is_sampled_again(scene) && 2 * done <= maximum; done *= 2) {
-        const std::vector<TileRange> left = tiles_where(
-            tiles.taken, [&](uint32_t tile) { return state.of(tile) == done && needs_more(tile); });
-        if (left.empty()) continue;
-        if (is_measured && !has_time(asked.noise, start)) break;
+    // Doubles the samples of tiles that have `done` of them. False once nothing is to be done.
+    const auto refine = [&](const std::vector<TileRange>& left, int done) {
         part.render.first_sample = part.render.samples = done;
         TileShare share(tiles.share, left, per_sample * done);
         std::vector<TileRange> taken;
         RenderReport of_more;
         const Image more = more_samples(part, world, of_more, {share, taken});
-        if (tiles.share.is_closed()) break;
+        if (tiles.share.is_closed()) return false;
         for_each_tile(left, [&](uint32_t tile) {
             state.set(tile, 2 * done, average_tile(tile, done, more, image));
             told[tile] += done;
@@ -235,11 +235,23 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
         add_counts(of_more, report);
         report.moments += of_more.moments;
         report.image_seconds += of_more.image_seconds;
+        return true;
+    };
+    bool is_untimed = is_measured && asked.earlier && asked.noise.seconds > 0;
+    for (int done = first; is_sampled_again(scene) && 2 * done <= maximum; done *= 2) {
+        std::vector<TileRange> left = tiles_where(
+            tiles.taken, [&](uint32_t tile) { return state.of(tile) == done && needs_more(tile); });
+        if (left.empty()) continue;
+        if (is_measured && !has_time(asked.noise, start)) break;
+        const auto refine_few = [&](const auto& few) { return refine(few, done); };
+        if (std::exchange(is_untimed, false) &&
+            !has_time_for_rest(left, asked.noise, start, refine_few))
+            break;
+        if (!left.empty() && !refine(left, done)) break;
     }
     if (is_sampled_again(scene)) for_each_tile(tiles.taken, tell_of_all);
     if (is_measured && is_sampled_again(scene)) {
-        given.resize(tiles.share.tiles());
-        for_each_tile(tiles.taken, [&](uint32_t tile) { given[tile] = state.of(tile); });
+        state.give(tiles.taken, given);
         report.noise = state.reached(tiles.taken);
     }
     state.show(asked.channels, image);

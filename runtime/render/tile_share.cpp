@@ -2,8 +2,32 @@
 #include "runtime/render/tile_share.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace voxelume {
+
+void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == tile)
+        ++ranges.back().count;
+    else
+        ranges.push_back({tile, 1});
+}
+
+double count_tiles(const std::vector<TileRange>& tiles) {
+    double sum = 0;
+    for (const TileRange& range : tiles) sum += range.count;
+    return sum;
+}
+
+std::vector<TileRange> take_sixteenth(std::vector<TileRange>& tiles) {
+    const auto wanted = uint32_t(std::ceil(count_tiles(tiles) / 16));
+    std::vector<TileRange> first, rest;
+    uint32_t taken = 0;
+    for_each_tile(tiles, [&](uint32_t tile) { add_tile(tile, taken++ < wanted ? first : rest); });
+    tiles = std::move(rest);
+    return first;
+}
 
 std::optional<TileRange> TileShare::take(uint32_t count) {
     const std::lock_guard lock(mutex_);

@@ -22,6 +22,31 @@ struct TileRange {
     uint32_t count = 0;
 };
 
+/// Adds a tile to ascending ranges.
+void add_tile(uint32_t tile, std::vector<TileRange>& ranges);
+
+/// The number of tiles in ranges.
+double count_tiles(const std::vector<TileRange>& tiles);
+
+/// Takes the first sixteenth of some tiles from them, rounded up.
+std::vector<TileRange> take_sixteenth(std::vector<TileRange>& tiles);
+
+template <class See>
+void for_each_tile(const std::vector<TileRange>& tiles, See&& see) {
+    for (const TileRange& range : tiles)
+        for (uint32_t tile = range.first; tile < range.first + range.count; ++tile) see(tile);
+}
+
+/// The tiles for which a predicate holds.
+template <class IsTrue>
+std::vector<TileRange> tiles_where(const std::vector<TileRange>& tiles, IsTrue&& is_true) {
+    std::vector<TileRange> result;
+    for_each_tile(tiles, [&](uint32_t tile) {
+        if (is_true(tile)) add_tile(tile, result);
+    });
+    return result;
+}
+
 /// Hands out an image's tiles, in order, to several threads.
 class TileShare {
   public:
