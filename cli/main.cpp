@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <thread>
@@ -172,6 +173,9 @@ int run_command(int count, char** arguments) {
     } catch (const std::bad_alloc&) {
         return complain("out of memory: use fewer or larger voxels, or a smaller picture",
                         ErrorKind::limit);
+    } catch (const std::filesystem::filesystem_error& error) {
+        return complain(fmt::format("{}: {}", error.path1().string(), error.code().message()),
+                        ErrorKind::output);
     } catch (const std::exception& error) {
         if (std::ferror(stdout) != 0) return complain(stdout_failure(), ErrorKind::output);
         return complain(error.what(), ErrorKind::render);

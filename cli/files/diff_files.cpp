@@ -22,13 +22,6 @@ std::vector<int> frames_of(const DiffNames& names) {
     return {frames.begin(), frames.end()};
 }
 
-/// The file that a name leads to, with links resolved.
-fs::path target_of(const std::string& name) {
-    std::error_code error;
-    const fs::path target = fs::weakly_canonical(name, error);
-    return error ? fs::absolute(name).lexically_normal() : target;
-}
-
 }  // namespace
 
 bool DiffNames::is_animation() const {
@@ -45,11 +38,11 @@ void check_inputs(const DiffFiles& files) {
 void check_outputs(const std::vector<DiffFiles>& list) {
     std::map<fs::path, std::string> inputs, outputs;
     for (const DiffFiles& files : list)
-        for (const std::string& image : {files.a, files.b}) inputs.emplace(target_of(image), image);
+        for (const std::string& image : {files.a, files.b}) inputs.emplace(real_path(image), image);
     for (const DiffFiles& files : list)
         for (const std::string& picture : {files.output, files.flip}) {
             if (picture.empty()) continue;
-            const fs::path target = target_of(picture);
+            const fs::path target = real_path(picture);
             if (const auto input = inputs.find(target); input != inputs.end())
                 fail_usage("diff: {}: the picture would replace {}, which is compared", picture,
                            input->second);

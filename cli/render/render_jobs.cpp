@@ -137,8 +137,7 @@ class JobList {
             for (const std::string& file : files) {
                 if (file.empty()) continue;
                 for (const std::filesystem::path& one : files_of_eyes(file, job.command.quilt)) {
-                    const auto [first, is_new] = known.emplace(
-                        std::filesystem::weakly_canonical(std::filesystem::absolute(one)), &job);
+                    const auto [first, is_new] = known.emplace(real_path(one), &job);
                     if (is_new || first->second == &job) continue;
                     fail_usage("render: {}: this would be the output of both {} and {}; {}",
                                one.string(), first->second->name, job.name,

@@ -19,6 +19,13 @@ std::string ending_of(const std::filesystem::path& file) {
     return ending;
 }
 
+std::filesystem::path real_path(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::path real = std::filesystem::weakly_canonical(file, error);
+    return (error ? std::filesystem::absolute(file) : std::filesystem::absolute(real))
+        .lexically_normal();
+}
+
 bool is_mesh_name(const std::filesystem::path& file) {
     const std::vector<std::string> endings = mesh_file_endings();
     return std::ranges::count(endings, ending_of(file)) > 0;

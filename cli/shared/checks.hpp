@@ -25,6 +25,9 @@ template <class... Args>
 /// The ending of a file's name, in lower case: ".png" for "Bunny.PNG".
 std::string ending_of(const std::filesystem::path& file);
 
+/// The absolute path of the file that a name leads to, with links resolved where they can be.
+std::filesystem::path real_path(const std::filesystem::path& file);
+
 /// True if a file's name ends like those of triangle meshes.
 bool is_mesh_name(const std::filesystem::path& file);
 

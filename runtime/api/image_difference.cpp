@@ -40,11 +40,14 @@ bool has_numbers(const Image& image) {
     });
 }
 
-/// The bytes per pixel that are stored while FLIP is computed.
+/// The bytes per pixel that are stored while FLIP is computed, and for how many pixels it is: 8K's
+/// 7,680 x 4,320 fit. A small file can stand for more, and would take tens of gigabytes.
 constexpr double kFlipBytes = 200;
+constexpr double kFlipPixels = 1 << 25;
 
 bool has_room_for_flip(const Image& image) {
-    return has_room_for(kFlipBytes * image.width * image.height);
+    const double pixels = double(image.width) * image.height;
+    return pixels <= kFlipPixels && has_room_for(kFlipBytes * pixels);
 }
 
 /// The colours of an image alone.
@@ -154,7 +157,9 @@ Image flip_image(const Image& a, const Image& b) {
         if (!map && has_colors(first) && has_colors(second))
             throw voxelume::Error(
                 voxelume::ErrorKind::render, "FLIP can't be told: {}",
-                has_room ? "some pixels' colours aren't numbers" : "memory has no room for it");
+                has_room
+                    ? "some pixels' colours aren't numbers"
+                    : "it takes images of up to 2^25 pixels, and 200 bytes of memory for each");
         if (!map)
             throw voxelume::Error(voxelume::ErrorKind::usage,
                                   "FLIP compares colours, and an image has no R, G and B");

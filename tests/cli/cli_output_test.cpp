@@ -65,6 +65,19 @@ TEST_F(CliOutputTest, FoldersThatTakeNoFilesAreNamed) {
         expect_refused("", command, "there is no folder nowhere");
 }
 
+TEST_F(CliOutputTest, NamesThatAreTooLongAreNamed) {
+    const std::string name(300, 'a');
+    for (const char* const command :
+         {"render scene.json -q -o ", "convert v.nrrd ", "voxelize scene.json -q -o "}) {
+        const ProgramResult done = run(std::string(command) + name + ".nrrd");
+        EXPECT_NE(done.exit_code, 1) << command << done.err;
+        EXPECT_THAT(done.err, testing::Not(HasSubstr("filesystem error"))) << command;
+    }
+    const ProgramResult done = run("render scene.json -q -o " + name + ".png");
+    EXPECT_EQ(done.exit_code, 5) << done.err;
+    EXPECT_THAT(done.err, HasSubstr(name + ".png: can't be written: the name is too long"));
+}
+
 TEST_F(CliOutputTest, AFileThatMeetsItsLimitLeavesNothing) {
     std::filesystem::create_directory(folder / "full");
     for (const std::string& command : conversions("full")) {

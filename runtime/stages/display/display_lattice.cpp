@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/display/display_lattice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -25,9 +27,11 @@ uint32_t group_count(const Device& device, const glm::ivec3& size) {
         8 * std::min(double(device.info().max_allocation), double(UINT32_MAX) * 32);
     if (bits > maximum)
         throw Error(ErrorKind::limit,
-                    "a lattice of {}x{}x{} display voxels needs a mask of {:.1f} GB, and \"{}\" "
-                    "allows {:.1f} GB in one piece: use fewer display voxels",
-                    size.x, size.y, size.z, bits / 8e9, device.info().name, maximum / 8e9);
+                    "a lattice of {}x{}x{} display voxels needs a mask of {:.1f} GB, and {} allows "
+                    "{:.1f} GB in one piece: use fewer display voxels",
+                    size.x, size.y, size.z, bits / 8e9,
+                    device.is_counting() ? "a device" : fmt::format("\"{}\"", device.info().name),
+                    maximum / 8e9);
     return uint32_t((uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z) + kGroupBits - 1) /
                     kGroupBits);
 }
