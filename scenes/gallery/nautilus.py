@@ -10,11 +10,13 @@ SIZE, EDGE = (192, 192, 100), 0.7  # millimetres
 GROWTH = math.log(3.0) / (2 * math.pi)  # a whorl is three times as wide as the one inside it
 OUTER, LAST = 66.0, 1.72 * math.pi  # the radius of the mouth, and its angle
 SEPTA = 2 * math.pi / 17
+BLUR = 2.4  # millimetres
 
 
 def soft(distance, inside, outside):
-    """A scanner blurs borders by about a millimetre."""
-    share = min(max(0.5 - distance / 1.6, 0), 1)
+    """A scanner blurs borders."""
+    share = min(max(0.5 - distance / BLUR, 0), 1)
+    share *= share * (3 - 2 * share)
     return outside + share * (inside - outside)
 
 
@@ -23,22 +25,23 @@ def value(x, y, z):
     result = 0.0
     for turn in range(3, -1, -1):  # from the innermost whorl on
         phi = angle - 2 * math.pi * turn
-        if phi > LAST:
+        if phi > LAST + 0.1:
             continue
         radius = OUTER * math.exp(GROWTH * (phi - LAST))
         tube = 0.40 * radius
         across = math.hypot((r - 0.6 * radius), z * 1.12)
         thick = 0.35 + 0.022 * radius
         inside = across - tube
-        if inside > 2:
+        if inside > 3:
             continue
         if inside < -thick:  # its hollow, through which no inner whorl goes
             result = 0.0
-        result = max(result, soft(abs(inside) - thick, 500, 0))
+        beyond = (phi - LAST) * r  # the mouth's rim
+        result = max(result, soft(max(abs(inside) - thick, beyond), 500, 0))
         if phi < LAST - 0.75 * math.pi and inside < 0:
             curved = phi + 0.55 * SEPTA * (1 - (across / tube) ** 2)
             away = abs((curved + SEPTA / 2) % SEPTA - SEPTA / 2) * 0.6 * radius
-            result = max(result, soft(away - 0.3 - 0.006 * radius, 1000, 0))
+            result = max(result, soft(away - 0.5 - 0.006 * radius, 1000, 0))
         siphuncle = math.hypot(r - 0.6 * radius, z) - 0.02 * radius - 0.2
         if phi < LAST - 0.75 * math.pi:
             result = max(result, soft(siphuncle, 450, 0))
