@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -26,6 +27,9 @@ namespace {
 // signals.
 constexpr std::chrono::milliseconds kTogether{300};
 
+/// How often the handler of aborts is looked after.
+constexpr timespec kLook{.tv_sec = 0, .tv_nsec = 200'000'000};
+
 /// How long a program may still take after its last command when a signal comes.
 constexpr std::chrono::milliseconds kOwnEnd{400};
 
@@ -43,18 +47,39 @@ std::stop_source& stop_source() {
 
 /// Prints the message of a program that ends in the middle of its work.
 void tell_end() {
-    tell_interruption(
-        [] { tell("\nvoxelume: {}\n", signal_number == SIGTERM ? "terminated" : "interrupted"); });
+    tell_interruption([] {
+        if (interrupted_code() != int(ErrorKind::render))
+            tell("\nvoxelume: {}\n", signal_number == SIGTERM ? "terminated" : "interrupted");
+        else
+            tell(
+                "voxelume: a library gave up, for the reason above; an OpenCL driver does so where "
+                "it can't write files: on a full disk, below a small `ulimit -f`, or if its cache "
+                "is removed while it runs\n");
+    });
 }
 
 std::atomic<pid_t> ending_thread = 0;
 std::atomic_flag is_ending;  // set by the one thread that ends the process
+pthread_t waiting_thread;    // waits for signals
 
-/// PoCL aborts if the files that it is about to compile or load have been removed. The thread in
-/// which it aborts waits here until another thread ends the process.
+/// PoCL aborts if it can't write the files of its cache, and if those that it is about to compile
+/// or load have been removed. The thread in which it aborts may hold locks, so another one ends the
+/// process: the one that waits for signals, if none does so yet.
 void outlast_abort(int) {
     if (gettid() == ending_thread) _exit(interrupted_code());
-    for (;;) pause();
+    if (ending_thread == 0) pthread_kill(waiting_thread, SIGABRT);
+    constexpr timespec kLong{.tv_sec = 2, .tv_nsec = 0};
+    do nanosleep(&kLong, nullptr);
+    while (ending_thread != 0);
+    _exit(interrupted_code());
+}
+
+/// Handles SIGABRT, also after LLVM has put a handler of its own in this one's place, as it does
+/// when it first compiles.
+void handle_aborts() {
+    struct sigaction now {};
+    if (sigaction(SIGABRT, nullptr, &now) != 0 || now.sa_handler != outlast_abort)
+        std::signal(SIGABRT, outlast_abort);
 }
 
 /// Silences PoCL and the linkers that it starts, which report kernels whose files were removed.
@@ -68,13 +93,30 @@ void hush_drivers() {
     }
 }
 
+/// Ends the process, without what it hasn't finished.
+[[noreturn]] void end_process() {
+    tell_end();
+    ending_thread = gettid();
+    handle_aborts();
+    hush_drivers();
+    remove_unfinished_files();
+    _exit(interrupted_code());
+}
+
+/// LLVM leaves the process by `exit` if it can't write a file.
+void end_after_exit() {
+    if (is_ending.test_and_set()) return;
+    signal_number = SIGABRT;
+    end_process();
+}
+
 /// Waits for one of the signals, which are blocked, and ends the program.
 void wait_for_signal(const sigset_t& signals) {
     int number = 0;
-    if (sigwait(&signals, &number) != 0) return;
+    while ((number = sigtimedwait(&signals, nullptr, &kLook)) <= 0) handle_aborts();
     signal_number = number;
     stop_source().request_stop();
-    if (interruptibles > 0) {
+    if (interruptibles > 0 && number != SIGABRT) {
         std::this_thread::sleep_for(kTogether);
         constexpr timespec kNow{};
         while (sigtimedwait(&signals, nullptr, &kNow) > 0) {
@@ -82,19 +124,16 @@ void wait_for_signal(const sigset_t& signals) {
         // The system handles a later signal of either kind.
         std::signal(SIGINT, SIG_DFL);
         std::signal(SIGTERM, SIG_DFL);
-        pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+        sigset_t later = signals;
+        sigdelset(&later, SIGABRT);
+        pthread_sigmask(SIG_UNBLOCK, &later, nullptr);
         std::this_thread::sleep_for(grace.load() - kTogether);
     }
     if (is_ending.test_and_set()) {
         std::this_thread::sleep_for(kOwnEnd);
         _exit(interrupted_code());
     }
-    tell_end();
-    ending_thread = gettid();
-    std::signal(SIGABRT, outlast_abort);
-    hush_drivers();
-    remove_unfinished_files();
-    _exit(interrupted_code());
+    end_process();
 }
 
 bool is_ignored(int number) {
@@ -118,7 +157,17 @@ void handle_interrupts() {
         if (!is_ignored(number)) sigaddset(&awaited, number);
     }
     pthread_sigmask(SIG_BLOCK, &all, nullptr);
-    std::thread(wait_for_signal, awaited).detach();
+    sigset_t aborts;  // blocked in the thread alone, which outlast_abort sends them to
+    sigemptyset(&aborts);
+    sigaddset(&aborts, SIGABRT);
+    sigaddset(&awaited, SIGABRT);
+    pthread_sigmask(SIG_BLOCK, &aborts, nullptr);
+    std::thread waiting(wait_for_signal, awaited);
+    waiting_thread = waiting.native_handle();
+    waiting.detach();
+    handle_aborts();
+    pthread_sigmask(SIG_UNBLOCK, &aborts, nullptr);
+    std::atexit(end_after_exit);
 }
 
 Interruptible::Interruptible(std::chrono::milliseconds own_grace) {
@@ -140,6 +189,7 @@ void end_interrupts() {
 }
 
 int interrupted_code() {
+    if (signal_number == SIGABRT) return int(ErrorKind::render);
     return 128 + (signal_number == SIGTERM ? SIGTERM : SIGINT);
 }
 

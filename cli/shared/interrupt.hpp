@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and SIGTERM: the program ends within two seconds, and leaves no half-written files.
+// What ends the program in the middle of its work: Ctrl-C, SIGTERM, and libraries that give up. It
+// ends within two seconds, and leaves no half-written files.
 #pragma once
 
 #include <chrono>
@@ -12,6 +13,9 @@ namespace voxelume::cli {
 /// its stop token and at the latest when its grace is over. Unfinished files on disk are removed,
 /// and one line says why the program ends. A second signal at least 0.3 s after the first ends the
 /// program without any of this. Signals that are ignored when the program starts stay ignored.
+///
+/// PoCL and LLVM abort or leave the process where they can't write their files, as on a full disk:
+/// it ends with exit code 1 and a line then, also without unfinished files.
 void handle_interrupts();
 
 /// Makes the program end itself from here on, unless that takes longer than 0.4 s after a signal.

@@ -2,10 +2,17 @@
 #include "runtime/opencl/build_log.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <span>
+#include <system_error>
 #include <vector>
+
+#include "runtime/base/error.hpp"
+#include "runtime/opencl/quirks/driver_quirks.hpp"
+#include "runtime/opencl/quirks/pocl_folder.hpp"
 
 namespace voxelume {
 
@@ -27,6 +34,25 @@ std::string first_errors(std::string_view log) {
     if (errors.size() > kMaxErrors)
         text += fmt::format("\n  and {} more", errors.size() - kMaxErrors);
     return text;
+}
+
+void fail_build(const std::string& label, const DeviceInfo& device, std::string_view what) {
+    std::string cause;
+    if (driver_quirks(device.platform).keeping == ProgramKeeping::pocl_folder) {
+        const std::filesystem::path& folder = PoclFolder::instance().path();
+        std::error_code error;
+        if (!folder.empty() && !std::filesystem::exists(folder, error))
+            cause =
+                fmt::format("; its folder {} was removed meanwhile: run it again", folder.string());
+    }
+    rlimit limit{};
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        cause += fmt::format(
+            "; drivers write files while they compile, which may have at most {} kB here: raise "
+            "`ulimit -f`",
+            limit.rlim_cur / 1000);
+    throw Error(ErrorKind::build, "{} does not compile on \"{}\": {}{}", label, device.name, what,
+                cause);
 }
 
 }  // namespace voxelume

@@ -40,7 +40,8 @@ std::string reason_unusable(const cl::Device& device) {
     if (!device.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) return "it is big-endian";
     if (device.getInfo<CL_DEVICE_PROFILE>().starts_with("EMBEDDED"))
         return "it offers the embedded profile only, without 64-bit integers";
-    return {};
+    return missing_ability(kind_of(device), device.getInfo<CL_DEVICE_VERSION>(),
+                           device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>());
 }
 
 /// The PCI address of a card, by the extension cl_khr_pci_bus_info.

@@ -12,6 +12,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/disk_cache.hpp"
+#include "runtime/opencl/build_log.hpp"
 #include "runtime/opencl/kernel_builds.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/opencl/quirks/driver_quirks.hpp"
@@ -109,8 +110,7 @@ void Kernel::Made::wait(const Device& device, const std::string& name) {
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                 .count();
     } catch (const Error& error) {
-        throw Error(ErrorKind::build, "{} does not compile on \"{}\": {}", label,
-                    device.info().name, error.what());
+        fail_build(label, device.info(), error.what());
     } catch (const cl::Error& error) {
         throw_device_error(error, device.info(), "compiling " + label);
     }

@@ -233,8 +233,7 @@ cl::Program build_program(const Device& device, const std::string& label, const 
         counters.programs_begun += uint64_t(begun.has_value());
         built = begun ? std::move(*begun) : build(compiler_target(device), label, text);
     } catch (const Error& error) {
-        throw Error(ErrorKind::build, "{} does not compile on \"{}\": {}", label,
-                    device.info().name, error.what());
+        fail_build(label, device.info(), error.what());
     } catch (const cl::Error& error) {
         throw_device_error(error, device.info(), "compiling " + label);
     }

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/quirks/driver_quirks.hpp"
@@ -39,7 +41,24 @@ double arithmetic(const DeviceInfo& info) {
                 names);
 }
 
+/// The largest groups that kernels are started with.
+size_t needed_group(DeviceKind kind) {
+    return kind == DeviceKind::cpu ? 16 : 64;
+}
+
 }  // namespace
+
+std::string missing_ability(DeviceKind kind, std::string_view version, size_t largest_group) {
+    int major = 0, minor = 0;
+    const std::string text(version);
+    if (std::sscanf(text.c_str(), "OpenCL %d.%d", &major, &minor) == 2 &&
+        std::pair(major, minor) < std::pair(1, 2))
+        return fmt::format("it speaks OpenCL {}.{}, and kernels need 1.2", major, minor);
+    if (largest_group < needed_group(kind))
+        return fmt::format("its groups have at most {} work-items, and kernels need {}",
+                           largest_group, needed_group(kind));
+    return {};
+}
 
 bool is_software(const DeviceInfo& info) {
     return is_software_rasterizer(info.name);

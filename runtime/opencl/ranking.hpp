@@ -6,6 +6,10 @@
 
 namespace voxelume {
 
+/// What a device of this kind lacks, with that version text ("OpenCL 1.1 ...") and at most that
+/// many work-items in a group; empty for one that can render.
+std::string missing_ability(DeviceKind kind, std::string_view version, size_t largest_group);
+
 /// True for a software rasterizer's device, which is used only if the user names it.
 bool is_software(const DeviceInfo& info);
 

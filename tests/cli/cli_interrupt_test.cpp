@@ -69,6 +69,25 @@ TEST_F(CliInterruptTest, TwoSignalsTogetherAreOne) {
     EXPECT_THAT(leftovers(), testing::IsEmpty());
 }
 
+// PoCL aborts where it can't link a kernel, as in a folder that was removed.
+TEST_F(CliInterruptTest, ALibraryThatAbortsEndsARunWithALine) {
+    ASSERT_EQ(run("render scene.json -q -o warm.png").exit_code, 0);
+    write_long_scene();
+    const ProgramResult result = interrupt("ABRT", 2, "render scene.json -q -o f.##.exr");
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_THAT(result.err, testing::MatchesRegex("voxelume: a library gave up, [^\n]+\n"));
+    EXPECT_THAT(leftovers(), testing::IsEmpty());
+}
+
+TEST_F(CliInterruptTest, ALimitOfFileSizesIsNamedAsTheCause) {
+    const ProgramResult result = run_line(fmt::format(
+        "ulimit -f 8; env -u POCL_CACHE_DIR VOXELUME_CACHE_DIR={} voxelume render scene.json -q "
+        "-o a.png",
+        (folder / "cold").string()));
+    EXPECT_EQ(result.exit_code, 6) << result.err;
+    EXPECT_THAT(result.err, testing::ContainsRegex("at most [48] kB here: raise `ulimit -f`"));
+}
+
 TEST_F(CliInterruptTest, SoDoesOneThatCompilesKernels) {
     const std::string cold = (folder / "cold").string();
     const ProgramResult result = run_line(

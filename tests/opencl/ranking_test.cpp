@@ -39,6 +39,15 @@ std::string chosen(std::vector<DeviceInfo> devices, std::string_view selector = 
 const DeviceInfo kPocl = cpu("pthread-znver3", 2, 8, 3000);
 const DeviceInfo kRasterizer = cpu("llvmpipe (LLVM 15.0.6, 256 bits)", 8, 1, 0);
 
+TEST(Ranking, NamesWhatAnOldOrSmallDeviceLacks) {
+    EXPECT_EQ(missing_ability(DeviceKind::gpu, "OpenCL 1.1 Mesa 20", 256),
+              "it speaks OpenCL 1.1, and kernels need 1.2");
+    EXPECT_EQ(missing_ability(DeviceKind::gpu, "OpenCL 1.2 ", 32),
+              "its groups have at most 32 work-items, and kernels need 64");
+    EXPECT_EQ(missing_ability(DeviceKind::cpu, "OpenCL 3.0 PoCL", 16), "");
+    EXPECT_EQ(missing_ability(DeviceKind::gpu, "a vendor's own text", 64), "");
+}
+
 TEST(Ranking, PutsCardsBeforeProcessorsAndTheirOwnMemoryBeforeTheHosts) {
     EXPECT_EQ(chosen({cpu("server", 128, 16, 3000), gpu("Intel(R) Corporation", 24, 1000, true)}),
               "Intel(R) Corporation");
