@@ -11,9 +11,9 @@ constexpr std::array kWarningNames = {
     "observer_in_object", "nothing_in_view",  "no_light",           "finer_than_world",
     "coarser_than_world", "open_mesh",        "inside_out_mesh",    "unlikely_unit",
     "ignored_materials",  "world_not_cached", "cache_not_writable", "ignored_scattering",
-    "rounded_edges",      "one_moment"};
-static_assert(kWarningNames.size() == size_t(WarningKind::one_moment) + 1);
-static_assert(int(v1::WarningKind::one_moment) == int(WarningKind::one_moment));
+    "rounded_edges",      "one_moment",       "no_effect"};
+static_assert(kWarningNames.size() == size_t(WarningKind::no_effect) + 1);
+static_assert(int(v1::WarningKind::no_effect) == int(WarningKind::no_effect));
 
 }  // namespace
 

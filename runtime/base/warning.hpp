@@ -34,6 +34,7 @@ enum class WarningKind : uint8_t {
     ignored_scattering,  ///< scattering of the medium in local light
     rounded_edges,       ///< edges of a smooth solid whose formula is too deep
     one_moment,          ///< an image that shows one moment of an open shutter
+    no_effect,           ///< a setting that others keep from doing anything
 };
 
 /// A finished sentence in two parts: where, and what is wrong and what to do. `text` begins with a

@@ -26,7 +26,8 @@ enum class WarningKind {
     cache_not_writable,   ///< nothing can be kept on disk
     ignored_scattering,   ///< local light doesn't follow what the medium scatters
     rounded_edges,        ///< a smooth solid is nested too deeply for all edges to stay sharp
-    one_moment            ///< a shutter is open, and an image with one sample shows one moment
+    one_moment,           ///< a shutter is open, and an image with one sample shows one moment
+    no_effect             ///< a setting does nothing, because of another
 };
 
 /// The kind's name in JSON: "outside_world".

@@ -200,6 +200,31 @@ TEST_F(SceneWarnings, NameScatteringInLocalLightInAllFrames) {
     EXPECT_THAT(kinds({1, 2, 3}), IsEmpty());
 }
 
+TEST_F(SceneWarnings, NameSettingsWithoutEffect) {
+    const auto expect_one = [&](const char* key, const char* part) {
+        ASSERT_THAT(kinds(), ElementsAre(Kind::no_effect)) << part;
+        EXPECT_THAT(warnings()[0].where.key, HasSubstr(key));
+        EXPECT_THAT(warnings()[0].text, HasSubstr(part));
+    };
+    const Json plain = json;
+    json["observer"].update({{"aperture", 0.1}, {"focus", 2}});
+    expect_one("observer", "sharp everywhere");
+    json["render"]["samples"] = 4;
+    EXPECT_THAT(kinds(), IsEmpty());
+    json["observer"].update({{"aperture", 0}, {"blades", 6}});
+    expect_one("observer", "there is none");
+    json = plain;
+    json["render"]["filter"] = "gaussian";
+    expect_one("render.filter", "all filters are the same");
+    json["render"]["samples"] = 4;
+    EXPECT_THAT(kinds(), IsEmpty());
+    json = plain;
+    json["render"].update({{"adaptive", 0.1}, {"samples", 4}});
+    EXPECT_THAT(kinds(), IsEmpty());
+    json["render"]["light"] = "global";
+    expect_one("render.adaptive", "use --noise");
+}
+
 TEST_F(SceneWarnings, OfFramesAreWhatHoldsInAllOfThem) {
     json["objects"][0]["position"] = {0.1, 4, 0};
     json["animation"] = Json::parse(R"({"frames": 10, "tracks": [

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "runtime/analysis/warnings/effect_warnings.hpp"
 #include "runtime/analysis/warnings/inside_warnings.hpp"
 #include "runtime/analysis/warnings/mesh_warnings.hpp"
 #include "runtime/analysis/warnings/object_warnings.hpp"
 #include "runtime/base/files/disk_cache.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
-#include "runtime/scene/shutter.hpp"
 
 namespace voxelume {
 namespace {
@@ -52,32 +52,6 @@ void add_light_warning(const Scene& scene, std::vector<Warning>& warnings) {
               "nothing in this scene shines, so its objects are black: add one of \"lights\", or "
               "give the world some \"ambient\" light"},
              warnings);
-}
-
-void add_scattering_warning(const Scene& scene, std::vector<Warning>& warnings) {
-    const RenderSettings& render = scene.render;
-    if (scene.world.medium.scattering == glm::vec3(0)) return;
-    const bool is_seen = render.shows_image && render.channels.color;
-    if (is_seen && !has_scattering(scene))
-        add_once({WarningKind::ignored_scattering, scene.world.where,
-                  "the medium's \"scattering\" is followed in global light alone, and is left out "
-                  "here: set render.light to \"global\""},
-                 warnings);
-    else if (render.shows_volume)
-        add_once({WarningKind::ignored_scattering, scene.world.where,
-                  "volumetric images show no light that the medium scatters: its \"scattering\" is "
-                  "left out there"},
-                 warnings);
-}
-
-void add_shutter_warning(const Scene& scene, std::vector<Warning>& warnings) {
-    const bool is_open = moves(scene) && scene.observer.shutter > 0 && scene.render.shows_image;
-    if (!is_open || has_moments(scene)) return;
-    add_once(
-        {WarningKind::one_moment, scene.observer.where,
-         "its shutter stays open, and images with one sample show the moment alone at which it "
-         "opens: give \"render\" more \"samples\""},
-        warnings);
 }
 
 /// Adds the warning that a folder of the cache keeps nothing, and what each run does because of it.
@@ -133,8 +107,7 @@ std::vector<Warning> still_true(const Scene& first, const Scene& now,
     };
     if (std::ranges::any_of(candidates, is_of_place)) add_inside_warnings(now, meshes, found);
     add_light_warning(now, found);
-    add_scattering_warning(now, found);
-    add_shutter_warning(now, found);
+    add_effect_warnings(now, found);
     return found;
 }
 
@@ -163,8 +136,7 @@ std::vector<Warning> scene_warnings(const Scene& scene, std::span<const int> fra
             }
             add_inside_warnings(now, meshes, warnings);
             add_light_warning(now, warnings);
-            add_scattering_warning(now, warnings);
-            add_shutter_warning(now, warnings);
+            add_effect_warnings(now, warnings);
             first = std::move(now);
         });
     }
