@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <climits>
 #include <csignal>
 #include <cstdio>
@@ -134,7 +135,11 @@ int kernel_compilers(const std::string& command) {
     if (std::ranges::find(kHelped, command) == kHelped.end()) return 0;
     if (const char* const value = std::getenv("VOXELUME_COMPILERS"); value && *value)
         return std::clamp(std::atoi(value), 0, kMaxKernelCompilers);
-    return int(idle_cores() > 0);
+    // Other programs of a pipe, which start together with this one, run for a moment only.
+    for (int looks = 5; idle_cores() <= 0;
+         std::this_thread::sleep_for(std::chrono::milliseconds(3)))
+        if (--looks == 0) return 0;
+    return 1;
 }
 
 /// Keeps freed memory in the process: on a CPU, buffers of some hundred megabytes come and go with

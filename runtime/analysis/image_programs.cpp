@@ -163,6 +163,16 @@ std::vector<const char*> sight_files(const Features& features, const Scene& scen
     return files;
 }
 
+std::vector<ForeseenKernel> image_kernels(const std::vector<const char*>& files,
+                                          const Features& features, bool has_dilated_occupancy) {
+    std::vector<ForeseenKernel> kernels;
+    for (const auto& [file, kernel, is_launched] : kKernels)
+        if (std::ranges::find(files, file) != files.end() && is_launched(features))
+            kernels.push_back(kernel);
+    if (has_dilated_occupancy) kernels.push_back({"start_beams"});
+    return kernels;
+}
+
 ForeseenImage foreseen_image(const Scene& scene, const Pyramid& world) {
     if (!is_made_at_once(scene)) return {};
     const std::optional<bool> has_lists = lists_fields(scene, world);
@@ -172,11 +182,7 @@ ForeseenImage foreseen_image(const Scene& scene, const Pyramid& world) {
     image.features.field_lists = *has_lists;
     const bool has_beams = sends_beams(image.features, scene, world);
     image.files = sight_files(image.features, scene, world, true, has_beams);
-    for (const auto& [file, kernel, is_launched] : kKernels)
-        if (std::ranges::find(image.files, file) != image.files.end() &&
-            is_launched(image.features))
-            image.kernels.push_back(kernel);
-    if (has_beams) image.kernels.push_back({"start_beams"});
+    image.kernels = image_kernels(image.files, image.features, has_beams);
     return image;
 }
 

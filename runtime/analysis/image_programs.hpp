@@ -17,6 +17,10 @@ std::vector<const char*> sight_files(const Features& features, const Scene& scen
                                      const Pyramid& world, bool makes_image,
                                      bool has_dilated_occupancy);
 
+/// Those kernels of such files that most runs launch.
+std::vector<ForeseenKernel> image_kernels(const std::vector<const char*>& files,
+                                          const Features& features, bool has_dilated_occupancy);
+
 /// The programs and kernels that the image of a scene is expected to need.
 struct ForeseenImage {
     Features features;

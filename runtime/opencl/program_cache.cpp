@@ -14,6 +14,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/disk_cache.hpp"
 #include "runtime/opencl/ahead/kernel_compilers.hpp"
+#include "runtime/opencl/ahead/kernel_launcher.hpp"
 #include "runtime/opencl/build_log.hpp"
 #include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/kernel_builds.hpp"
@@ -117,19 +118,37 @@ std::optional<cl::Program> from_binary(const CompilerTarget& target, const std::
     }
 }
 
+/// Compiles the first kernels of a program while a helper compiles the last ones.
+void compile_beside_helper(const CompilerTarget& target, const std::string& label,
+                           const cl::Program& program, const std::string& key) {
+    KernelCompilers& helpers = KernelCompilers::instance();
+    const DeviceCall call(target.info, "compiling ", label);
+    std::optional<KernelLauncher> launcher;
+    while (const auto kernel = helpers.take(key)) {
+        if (!launcher) launcher.emplace(*target.context, *target.device);
+        launcher->compile(program, *kernel);
+    }
+}
+
 /// Builds with PoCL, which keeps its own files.
 BuiltProgram build_in_pocl_folder(const CompilerTarget& target, const std::string& label,
                                   const ProgramText& text) {
     BuiltProgram built;
+    KernelCompilers& helpers = KernelCompilers::instance();
     const std::string key = key_of(target.info, "program", text);
-    const bool was_compiled_ahead = KernelCompilers::instance().await(key);
-    const bool ready = PoclFolder::instance().build_with_files(
+    const bool is_shared = helpers.has_kernels_to_share(key);
+    const bool was_compiled_ahead = !is_shared && helpers.await(key);
+    const bool is_ready = PoclFolder::instance().build_with_files(
         program_store(), key, [&] { return parts_of(target.info, text); },
         [&] {
             built.program =
                 std::make_shared<const cl::Program>(compile_declared(target, label, text));
+            if (!is_shared) return false;
+            compile_beside_helper(target, label, *built.program, key);
+            helpers.await(key);
+            return true;
         });
-    built.is_from_cache = ready && !was_compiled_ahead;
+    built.is_from_cache = is_ready && !was_compiled_ahead && !is_shared;
     return built;
 }
 

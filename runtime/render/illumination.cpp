@@ -77,9 +77,12 @@ void build_programs(const Device& device, const Features& features, const Scene&
                     const Pyramid& world, bool makes_image, bool has_dilated_occupancy) {
     const std::vector<const char*> files =
         sight_files(features, scene, world, makes_image, has_dilated_occupancy);
-    Program::build_together(
-        device, files,
-        resolve_defines(device, features, scene.render.channels, adds_samples(scene.render)));
+    const Defines defines =
+        resolve_defines(device, features, scene.render.channels, adds_samples(scene.render));
+    // What wasn't foreseen before the world was built is shared with a helper that compiles.
+    Program::foresee(device,
+                     {files, defines, image_kernels(files, features, has_dilated_occupancy)});
+    Program::build_together(device, files, defines);
 }
 
 Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,

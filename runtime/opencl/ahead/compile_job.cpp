@@ -7,6 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace voxelume {
 namespace {
@@ -50,6 +51,23 @@ bool read_all(int descriptor, char* data, size_t size) {
     return true;
 }
 
+/// A text with its count.
+std::string message_of(std::string_view content) {
+    std::string bytes;
+    append(bytes, content);
+    return bytes;
+}
+
+/// The next text with its count; empty at the descriptor's end.
+std::optional<std::string> next_message(int descriptor) {
+    uint64_t size = 0;
+    if (!read_all(descriptor, reinterpret_cast<char*>(&size), sizeof size)) return std::nullopt;
+    if (size > kMaxBytes) throw std::runtime_error("a job is too large");
+    std::string content(size, '\0');
+    if (!read_all(descriptor, content.data(), size)) return std::nullopt;
+    return content;
+}
+
 }  // namespace
 
 std::string bytes_of(const CompileJob& job) {
@@ -57,31 +75,35 @@ std::string bytes_of(const CompileJob& job) {
     append(content, std::string_view(job.label));
     append(content, std::string_view(job.source));
     append(content, std::string_view(job.options));
-    for (const CompiledKernel& kernel : job.kernels) {
-        append(content, std::string_view(kernel.name));
-        append(content, kernel.group);
+    return message_of(content);
+}
+
+std::string bytes_of(const std::optional<CompiledKernel>& kernel) {
+    std::string content;
+    if (kernel) {
+        append(content, std::string_view(kernel->name));
+        append(content, kernel->group);
     }
-    std::string bytes;
-    append(bytes, std::string_view(content));
-    return bytes;
+    return message_of(content);
 }
 
 std::optional<CompileJob> next_job(int descriptor) {
-    uint64_t size = 0;
-    if (!read_all(descriptor, reinterpret_cast<char*>(&size), sizeof size)) return std::nullopt;
-    if (size > kMaxBytes) throw std::runtime_error("a job is too large");
-    std::string content(size, '\0');
-    if (!read_all(descriptor, content.data(), size)) return std::nullopt;
-    std::string_view rest = content;
+    const std::optional<std::string> content = next_message(descriptor);
+    if (!content) return std::nullopt;
+    std::string_view rest = *content;
     CompileJob job;
     job.label = take_text(rest);
     job.source = take_text(rest);
     job.options = take_text(rest);
-    while (!rest.empty()) {
-        std::string name = take_text(rest);
-        job.kernels.push_back({std::move(name), take_number(rest)});
-    }
     return job;
+}
+
+std::optional<CompiledKernel> next_kernel(int descriptor) {
+    const std::optional<std::string> content = next_message(descriptor);
+    if (!content || content->empty()) return std::nullopt;
+    std::string_view rest = *content;
+    std::string name = take_text(rest);
+    return CompiledKernel{std::move(name), take_number(rest)};
 }
 
 }  // namespace voxelume

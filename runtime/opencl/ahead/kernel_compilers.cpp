@@ -33,6 +33,25 @@ bool wait_until_ready(int descriptor, short event, int wake) {
     }
 }
 
+/// True if the system's limit of processes and threads is so low that helpers could take those that
+/// PoCL needs: without a process for its linker, PoCL ends the program.
+bool is_short_of_processes() {
+    constexpr rlim_t kFew = 128;
+    rlimit limit{};
+    return getrlimit(RLIMIT_NPROC, &limit) == 0 && limit.rlim_cur < kFew;
+}
+
+/// Ends the helpers when the process ends, before objects that were made before the helpers are
+/// destroyed.
+struct EndAtExit {
+    EndAtExit() = default;
+    ~EndAtExit() { KernelCompilers::instance().end(); }
+    EndAtExit(const EndAtExit&) = delete;
+    EndAtExit& operator=(const EndAtExit&) = delete;
+};
+
+}  // namespace
+
 /// The two ends of a socket for jobs.
 class JobSocket {
   public:
@@ -66,25 +85,6 @@ class JobSocket {
   private:
     std::array<int, 2> ends_{-1, -1};
 };
-
-/// True if the system's limit of processes and threads is so low that helpers could take those that
-/// PoCL needs: without a process for its linker, PoCL ends the program.
-bool is_short_of_processes() {
-    constexpr rlim_t kFew = 128;
-    rlimit limit{};
-    return getrlimit(RLIMIT_NPROC, &limit) == 0 && limit.rlim_cur < kFew;
-}
-
-/// Ends the helpers when the process ends, before objects that were made before the helpers are
-/// destroyed.
-struct EndAtExit {
-    EndAtExit() = default;
-    ~EndAtExit() { KernelCompilers::instance().end(); }
-    EndAtExit(const EndAtExit&) = delete;
-    EndAtExit& operator=(const EndAtExit&) = delete;
-};
-
-}  // namespace
 
 KernelCompilers& KernelCompilers::instance() {
     static KernelCompilers compilers;
@@ -166,9 +166,33 @@ void KernelCompilers::finish(Job& job, State state) {
         const std::lock_guard lock(mutex_);
         job.state = state;
         job.wanted.job = {};
+        job.taken = job.given = 0;
         compiled_ += int(state == State::done);
     }
     changed_.notify_all();
+}
+
+/// The kernel that is needed last of those that nobody compiles. Where this process compiles, too,
+/// it gets the last of all: a helper would begin it later.
+std::optional<CompiledKernel> KernelCompilers::give(Job& job) {
+    const std::lock_guard lock(mutex_);
+    if (job.left() <= size_t(job.is_shared)) return std::nullopt;
+    ++job.given;
+    return job.wanted.job.kernels[job.taken + job.left()];
+}
+
+/// Has a helper compile a program, kernel by kernel. Returns false if the helper has ended.
+bool KernelCompilers::serve_job(Job& job, const HelperProcess& helper, const JobSocket& socket) {
+    if (!socket.send_all(bytes_of(job.wanted.job), wake_)) return false;
+    for (char answer = 0; wait_until_ready(helper.answer(), POLLIN, wake_) &&
+                          read(helper.answer(), &answer, 1) == 1;) {
+        if (HelperAnswer(answer) != HelperAnswer::wants_kernel) {
+            finish(job, HelperAnswer(answer) == HelperAnswer::has_kept ? State::done : State::left);
+            return true;
+        }
+        if (!socket.send_all(bytes_of(give(job)), wake_)) return false;
+    }
+    return false;
 }
 
 /// Runs a helper. The helper is a child of this thread, and would end with it.
@@ -180,12 +204,8 @@ void KernelCompilers::serve(const std::filesystem::path& program,
         const HelperProcess helper(program, arguments, socket.helpers_end(), kHelperSeconds);
         socket.close_helpers_end();
         while ((job = claim())) {
-            char is_done = 0;
-            if (!socket.send_all(bytes_of(job->wanted.job), wake_) ||
-                !wait_until_ready(helper.answer(), POLLIN, wake_) ||
-                read(helper.answer(), &is_done, 1) != 1)
-                break;
-            finish(*job, is_done == 1 ? State::done : State::left);
+            if (!serve_job(*job, helper, socket)) break;
+            job = nullptr;
         }
     } catch (const std::exception&) {
         // Without a helper, this process compiles everything itself.
@@ -195,19 +215,43 @@ void KernelCompilers::serve(const std::filesystem::path& program,
     --living_;
 }
 
-bool KernelCompilers::await(const std::string& key) {
-    if (getpid() != process_) return false;
-    std::unique_lock lock(mutex_);
+KernelCompilers::Job* KernelCompilers::find(const std::string& key) const {
     const auto found =
         std::ranges::find_if(jobs_, [&](const auto& job) { return job->wanted.key == key; });
-    if (found == jobs_.end()) return false;
-    Job& job = **found;
-    if (job.state == State::waiting) {
-        job.state = State::left;
-        job.wanted.job = {};
+    return found == jobs_.end() || getpid() != process_ ? nullptr : found->get();
+}
+
+bool KernelCompilers::has_kernels_to_share(const std::string& key) const {
+    const std::lock_guard lock(mutex_);
+    const Job* const job = find(key);
+    return job && living_ > 0 && (job->state == State::waiting || job->state == State::begun) &&
+           job->left() > 1;
+}
+
+std::optional<CompiledKernel> KernelCompilers::take(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    Job* const job = find(key);
+    if (!job || (job->state != State::waiting && job->state != State::begun) || job->left() == 0)
+        return std::nullopt;
+    job->is_shared = true;
+    return job->wanted.job.kernels[job->taken++];
+}
+
+bool KernelCompilers::await(const std::string& key) {
+    std::unique_lock lock(mutex_);
+    Job* const job = find(key);
+    if (!job) return false;
+    if (job->state == State::waiting) {
+        job->state = State::left;
+        job->wanted.job = {};
+        job->taken = job->given = 0;
     }
-    changed_.wait_for(lock, longest_wait_, [&] { return job.state != State::begun; });
-    return job.state == State::done;
+    // A helper that has no kernel yet, of those that this process has compiled, gets none.
+    const auto is_over = [&] {
+        return job->state != State::begun || (job->is_shared && job->given == 0);
+    };
+    changed_.wait_for(lock, longest_wait_, is_over);
+    return job->state == State::done;
 }
 
 int KernelCompilers::started() const {

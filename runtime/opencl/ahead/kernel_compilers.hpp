@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,6 +24,9 @@
 #include "runtime/opencl/ahead/compile_job.hpp"
 
 namespace voxelume {
+
+class HelperProcess;
+class JobSocket;
 
 /// The helpers of this process. Any thread may call the functions.
 class KernelCompilers {
@@ -59,6 +63,15 @@ class KernelCompilers {
     /// program first.
     void add(Wanted wanted);
 
+    /// True if kernels of a program that this process needs now are still to be compiled, and a
+    /// helper may compile some of them. The process then makes the program, compiles the kernels
+    /// that `take` gives, and calls `await`.
+    bool has_kernels_to_share(const std::string& key) const;
+
+    /// The next kernel of a program for this process, which helpers don't compile; they take the
+    /// last ones first. Empty if all are taken, or the last one by a helper.
+    std::optional<CompiledKernel> take(const std::string& key);
+
     /// Tells that this process needs a program now. Waits for the helper that compiles it, if there
     /// is one; otherwise no helper will compile it. Returns true if a helper has compiled it.
     bool await(const std::string& key);
@@ -78,12 +91,20 @@ class KernelCompilers {
     struct Job {
         Wanted wanted;
         State state = State::waiting;
+        size_t taken = 0;        ///< number of its first kernels that this process compiles
+        size_t given = 0;        ///< number of its last kernels that a helper compiles
+        bool is_shared = false;  ///< this process compiles, too
+
+        size_t left() const { return wanted.job.kernels.size() - taken - given; }
     };
 
     KernelCompilers();
     ~KernelCompilers();
     void serve(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+    bool serve_job(Job& job, const HelperProcess& helper, const JobSocket& socket);
+    Job* find(const std::string& key) const;
     Job* claim();
+    std::optional<CompiledKernel> give(Job& job);
     void finish(Job& job, State state);
 
     mutable std::mutex mutex_;

@@ -205,7 +205,7 @@ void PoclFolder::take_kernels(const DiskCache& cache, ProgramFiles& program) con
 
 bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
                                   const std::function<std::vector<ProgramPart>()>& parts,
-                                  const std::function<void()>& build) {
+                                  const std::function<bool()>& build) {
     const std::lock_guard guard(mutex_);  // one build at a time, to know whose folder is new
     if (folder_.empty() || programs_.contains(key)) {
         build();
@@ -224,7 +224,7 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
         return program;
     });
     const std::set<fs::path> before = built_folders();
-    build();
+    const bool has_new_kernels = build();
     const fs::path folder = only_new(before, built_folders());
     ProgramFiles program = restoring.get();
     // An entry for a folder other than PoCL's is useless and gets replaced.
@@ -237,7 +237,8 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
             for (ProgramPart& part : program.parts) part.published = 0;
         program.folder = folder;
         take_kernels(cache, program);
-        if (!unpacked.empty()) program.published = files_worth_keeping(folder_, folder).size();
+        if (!unpacked.empty() && !has_new_kernels)
+            program.published = files_worth_keeping(folder_, folder).size();
     }
     programs_[key] = std::move(program);
     return !unpacked.empty();
