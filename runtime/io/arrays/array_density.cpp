@@ -105,6 +105,7 @@ class ArrayDensity : public DensityField {
                        std::span<float> values) const override {
         const glm::dvec3 origin(cell_from_world_ * glm::dvec4(first, 1));
         const glm::dmat3 turn(cell_from_world_);
+        if (is_along_axes(turn)) return sample_along_axes(origin, turn, step, count, values);
         size_t index = 0;
         for (int k = 0; k < count.z; ++k)
             for (int j = 0; j < count.y; ++j)
@@ -113,30 +114,63 @@ class ArrayDensity : public DensityField {
     }
 
   private:
+    /// Where a point lies along an axis: between a cell and the next one.
+    struct Between {
+        bool is_inside = false;
+        int cell = 0;
+        double share = 0;  ///< of the way to the next cell
+    };
+
+    /// `x` is in cells. Points on the border that rounding moves out of the array count as inside.
+    Between between(double x, int axis) const {
+        if (!(x >= -0.5 - 1e-9 && x <= size_[axis] - 0.5 + 1e-9)) return {};
+        const double within = std::clamp(x, 0.0, double(size_[axis] - 1));
+        const int cell = std::min(int(within), std::max(size_[axis] - 2, 0));
+        return {true, cell, within - cell};
+    }
+
     /// The value at a point, whose coordinates are in cells.
     float at(const glm::dvec3& p) const {
-        glm::ivec3 cell;
-        glm::dvec3 share;
-        for (int axis = 0; axis < 3; ++axis) {
-            // Points on the border that rounding moves out of the array still count as inside.
-            if (!(p[axis] >= -0.5 - 1e-9 && p[axis] <= size_[axis] - 0.5 + 1e-9))
-                return kOutsideScan;
-            const double within = std::clamp(p[axis], 0.0, double(size_[axis] - 1));
-            cell[axis] = std::min(int(within), std::max(size_[axis] - 2, 0));
-            share[axis] = within - cell[axis];
-        }
+        return at(between(p.x, 0), between(p.y, 1), between(p.z, 2));
+    }
+
+    float at(const Between& x, const Between& y, const Between& z) const {
+        if (!x.is_inside || !y.is_inside || !z.is_inside) return kOutsideScan;
+        const size_t cell = index({x.cell, y.cell, z.cell});
+        const size_t row = size_t(size_.x), slice = row * size_t(size_.y);
         double sum = 0;
         for (int c = 0; c < 8; ++c) {
-            const glm::ivec3 high(c & 1, c >> 1 & 1, c >> 2);
-            double weight = 1;
-            for (int axis = 0; axis < 3; ++axis)
-                weight *= high[axis] != 0 ? share[axis] : 1 - share[axis];
-            if (weight == 0) continue;
-            const float value = values_[index(cell + high)];
+            double weight = (c & 1) != 0 ? x.share : 1 - x.share;
+            weight *= (c & 2) != 0 ? y.share : 1 - y.share;
+            weight *= (c & 4) != 0 ? z.share : 1 - z.share;
+            if (weight == 0) continue;  // also of a cell beyond the last
+            const float value = values_[cell + size_t(c & 1) + ((c & 2) != 0 ? row : 0) +
+                                        ((c & 4) != 0 ? slice : 0)];
             if (value == kOutsideScan) return kOutsideScan;
             sum += weight * double(value);
         }
         return float(sum);
+    }
+
+    static bool is_along_axes(const glm::dmat3& turn) {
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row)
+                if (row != column && turn[column][row] != 0) return false;
+        return true;
+    }
+
+    /// Samples points whose rows run along the array's axes.
+    void sample_along_axes(const glm::dvec3& origin, const glm::dmat3& turn, const glm::dvec3& step,
+                           const glm::ivec3& count, std::span<float> values) const {
+        std::array<std::vector<Between>, 3> along;
+        for (int axis = 0; axis < 3; ++axis)
+            for (int i = 0; i < count[axis]; ++i)
+                along[size_t(axis)].push_back(
+                    between(origin[axis] + turn[axis][axis] * (step[axis] * i), axis));
+        size_t index = 0;
+        for (const Between& z : along[2])
+            for (const Between& y : along[1])
+                for (const Between& x : along[0]) values[index++] = at(x, y, z);
     }
 
     size_t index(const glm::ivec3& cell) const {

@@ -53,11 +53,11 @@ class PoclFolder {
     /// Runs `first_call`, which makes PoCL start up, with POCL_CACHE_DIR set: PoCL reads it once.
     void announce(const std::function<void()>& first_call) const;
 
-    /// Runs `build`, which makes PoCL build one program, after restoring the program's files, and
-    /// returns true if it has had kernels compiled, too. Also
-    /// restores those of its kernels, `parts()`, that other programs compiled, unless this process
-    /// built the program before. `parts` runs while `build` does, on a thread of its own. Returns
-    /// true if there were files of this program, from an earlier run or an earlier build.
+    /// Runs `build`, which makes PoCL build one program, and returns true if it has had kernels
+    /// compiled, too, after restoring the program's files. Also restores those of its kernels,
+    /// `parts()`, that other programs compiled, unless this process built the program before.
+    /// `parts` runs while `build` does, on a thread of its own. Returns true if there were files of
+    /// this program, from an earlier run or an earlier build.
     bool build_with_files(const DiskCache& cache, const std::string& key,
                           const std::function<std::vector<ProgramPart>()>& parts,
                           const std::function<bool()>& build);

@@ -5,8 +5,12 @@
 #include <array>
 #include <bit>
 #include <map>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/ranges.hpp"
 #include "runtime/stages/medium/density_lattice.hpp"
 
 namespace voxelume {
@@ -80,48 +84,83 @@ void join_constants(std::vector<uint32_t>& words, const glm::ivec3& bricks, int 
             }
 }
 
-/// Samples bricks and writes those with varying density to their slots.
+/// Samples bricks, several at once, and writes those with varying density to their slots.
 class BrickWriter {
   public:
     BrickWriter(const DensityLattice& lattice, ConstantTable& constants, size_t first_slot,
                 DensityGrid& grid)
-        : lattice_(lattice), constants_(constants), next_slot_(first_slot), grid_(grid) {}
+        : lattice_(lattice),
+          constants_(constants),
+          next_slot_(first_slot),
+          grid_(grid),
+          words_(lattice.brick_count()) {}
 
-    /// The entry of a brick: its slot or its constant density.
-    uint32_t add(size_t number) {
-        if (const auto density = lattice_.constant_in(number)) return constants_.word(*density);
-        waiting_.resize(waiting_.size() + kBrickCells);
-        if (lattice_.has_colors()) colors_.resize(3 * waiting_.size());
-        const std::span<float, kBrickCells> cells(waiting_.end() - kBrickCells, kBrickCells);
-        lattice_.sample(number, cells,
-                        std::span(colors_).last(lattice_.has_colors() ? 3 * kBrickCells : 0));
-        // With colours, only bricks without density are constant: their colours are invisible.
-        if (std::ranges::all_of(cells, [&](float value) { return value == cells.front(); }) &&
-            (cells.front() == 0 || !lattice_.has_colors())) {
-            const float density = cells.front();
-            waiting_.resize(waiting_.size() - kBrickCells);
-            if (lattice_.has_colors()) colors_.resize(3 * waiting_.size());
-            return constants_.word(density);
+    /// The entry of each brick: its slot or its constant density.
+    std::vector<uint32_t> write() {
+        for (size_t number = 0; number < words_.size(); ++number) {
+            if (const auto density = lattice_.constant_in(number))
+                words_[number] = constants_.word(*density);
+            else
+                waiting_.push_back(number);
+            if (waiting_.size() == kBricksAtOnce) write_waiting();
         }
-        const auto slot = uint32_t(next_slot_ + waiting_.size() / kBrickCells - 1);
-        if (waiting_.size() == kBricksAtOnce * kBrickCells) write();
-        return slot;
-    }
-
-    void write() {
-        grid_.values.write(waiting_, next_slot_ * kBrickCells);
-        if (lattice_.has_colors()) grid_.colors.write(colors_, 3 * next_slot_ * kBrickCells);
-        colors_.clear();
-        next_slot_ += waiting_.size() / kBrickCells;
-        waiting_.clear();
+        write_waiting();
+        return std::move(words_);
     }
 
   private:
+    std::span<float> values_of(size_t brick) {
+        return std::span(values_).subspan(brick * kBrickCells, kBrickCells);
+    }
+    std::span<float> colors_of(size_t brick) {
+        if (!lattice_.has_colors()) return {};
+        return std::span(colors_).subspan(3 * brick * kBrickCells, 3 * kBrickCells);
+    }
+
+    /// True if a brick's density is constant. With colours, only bricks without density are: their
+    /// colours are invisible.
+    bool is_constant(std::span<const float> values) const {
+        return (values.front() == 0 || !lattice_.has_colors()) &&
+               std::ranges::all_of(values, [&](float value) { return value == values.front(); });
+    }
+
+    void write_waiting() {
+        values_.resize(waiting_.size() * kBrickCells);
+        if (lattice_.has_colors()) colors_.resize(3 * values_.size());
+        for_ranges(int(waiting_.size()), values_.size(), [&](int first, int end) {
+            for (size_t i = size_t(first); i < size_t(end); ++i)
+                lattice_.sample(waiting_[i], values_of(i).first<kBrickCells>(), colors_of(i));
+        });
+        size_t kept = 0;
+        for (size_t i = 0; i < waiting_.size(); ++i) {
+            if (is_constant(values_of(i))) {
+                words_[waiting_[i]] = constants_.word(values_of(i).front());
+                continue;
+            }
+            words_[waiting_[i]] = uint32_t(next_slot_ + kept);
+            if (kept != i) {
+                std::ranges::copy(values_of(i), values_of(kept).begin());
+                std::ranges::copy(colors_of(i), colors_of(kept).begin());
+            }
+            ++kept;
+        }
+        values_.resize(kept * kBrickCells);
+        grid_.values.write(values_, next_slot_ * kBrickCells);
+        if (lattice_.has_colors()) {
+            colors_.resize(3 * values_.size());
+            grid_.colors.write(colors_, 3 * next_slot_ * kBrickCells);
+        }
+        next_slot_ += kept;
+        waiting_.clear();
+    }
+
     const DensityLattice& lattice_;
     ConstantTable& constants_;
     size_t next_slot_;
     DensityGrid& grid_;
-    std::vector<float> waiting_, colors_;  ///< values of bricks that are written together
+    std::vector<uint32_t> words_;
+    std::vector<size_t> waiting_;         ///< numbers of bricks that are sampled together
+    std::vector<float> values_, colors_;  ///< theirs
 };
 
 }  // namespace
@@ -176,10 +215,7 @@ DensityGrid form_density_grid(const Device& device, const World& world,
     DensityGrid grid =
         allocate_density(device, {slots.total(), lattice.brick_count(), lattice.has_colors()});
     ConstantTable constants;
-    BrickWriter writer(lattice, constants, slots.constants, grid);
-    std::vector<uint32_t> words(lattice.brick_count());
-    for (size_t number = 0; number < words.size(); ++number) words[number] = writer.add(number);
-    writer.write();
+    std::vector<uint32_t> words = BrickWriter(lattice, constants, slots.constants, grid).write();
     grid.values.write(constants.values());
     // Kernels read colours whenever another lane needs one; multiplied by 0 they must give 0.
     if (lattice.has_colors())

@@ -15,6 +15,13 @@ glm::dvec4 light_of(const TransferPoint& point) {
     return {glm::dvec3(point.color) * point.absorption, point.absorption};
 }
 
+/// u^power, the same on every machine, as pow() isn't.
+double raised(double u, size_t power) {
+    double result = 1;
+    for (size_t i = 0; i < power; ++i) result *= u;
+    return result;
+}
+
 /// The mean of max(u, 0)^power, with a power of 0 or 1, over a box in whose middle u is `middle`
 /// and along whose edges it grows by `rises`: a sum of truncated powers over the corners (de Boor
 /// 1976).
@@ -34,7 +41,7 @@ double mean_ramp(double middle, std::span<const double> rises, size_t power) {
             u += is_high ? rises[i] / 2 : -rises[i] / 2;
             if (!is_high) sign = -sign;
         }
-        if (u > 0) sum += sign * std::pow(u, double(rises.size() + power));
+        if (u > 0) sum += sign * raised(u, rises.size() + power);
     }
     return sum / divisor;
 }
@@ -100,12 +107,13 @@ glm::dvec4 TransferCurve::mean(const std::array<float, 8>& corners) const {
     if (inside == 0) return glm::dvec4(0);
     const double middle = sum / double(inside);
     if (inside < corners.size()) return at(middle) * (double(inside) / 8);
+    const auto [min, max] = std::ranges::minmax(corners);
+    if (!bends_in(min, max)) return at(middle);
     std::array<double, 3> rises{};
     const size_t count = find_rises(corners, rises);
     const auto kept = std::span<const double>(rises).first(count);
     const double reach = std::accumulate(kept.begin(), kept.end(), 0.0) / 2;
-    const auto [min, max] = std::ranges::minmax(corners);
-    if (!bends_in(min, max) || !bends_in(middle - reach, middle + reach)) return at(middle);
+    if (!bends_in(middle - reach, middle + reach)) return at(middle);
     const size_t next = points_up_to(middle - reach);
     glm::dvec4 mean = lights_[next == 0 ? 0 : next - 1];
     for (size_t i = std::max<size_t>(next, 1);
