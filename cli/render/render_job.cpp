@@ -150,6 +150,11 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     if (!command.stats.empty()) write_file(command.stats, to_json(statistics));
     if (command.quiet) return;
     print_summary(statistics);
+    if (command.scene.noise > 0 && command.scene.time > 0 && !statistics.rays.noise &&
+        !statistics.rays.volume_noise)
+        tell(
+            "note: the noise isn't known, since there was no time for more than the first 16 "
+            "samples: give --time more seconds\n");
     if (command.verbose) print_details(statistics);
 }
 

@@ -118,15 +118,20 @@ std::optional<cl::Program> from_binary(const CompilerTarget& target, const std::
     }
 }
 
-/// Compiles the first kernels of a program while a helper compiles the last ones.
+/// Compiles the first kernels of a program while a helper compiles the last ones. A failure costs
+/// time only: what is missing is compiled when it is launched.
 void compile_beside_helper(const CompilerTarget& target, const std::string& label,
                            const cl::Program& program, const std::string& key) {
     KernelCompilers& helpers = KernelCompilers::instance();
     const DeviceCall call(target.info, "compiling ", label);
-    std::optional<KernelLauncher> launcher;
-    while (const auto kernel = helpers.take(key)) {
-        if (!launcher) launcher.emplace(*target.context, *target.device);
-        launcher->compile(program, *kernel);
+    try {
+        std::optional<KernelLauncher> launcher;
+        while (const auto kernel = helpers.take(key)) {
+            if (!launcher) launcher.emplace(*target.context, *target.device);
+            launcher->compile(program, *kernel);
+        }
+    } catch (const cl::Error&) {
+        return;
     }
 }
 

@@ -235,7 +235,9 @@ TEST_F(CliFaultsTest, LaunchesThatLackMemoryLoseNoTilesOfASharedImage) {
         EXPECT_TRUE(result.exit_code == 0 ? files() == expected : files().empty()) << number;
         again += result.exit_code == 0;
     }
-    EXPECT_GT(again, 3) << "launches that failed and were made again";
+    // Only those are made again before which no tile was done: how many depends on the devices'
+    // turns.
+    EXPECT_GT(again, 0) << "launches that failed and were made again";
 }
 
 TEST_F(CliFaultsTest, CallsThatAreLateChangeNothing) {

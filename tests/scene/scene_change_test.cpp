@@ -56,6 +56,19 @@ TEST(SceneChange, GoesByNameByPlaceAndIntoWhatIsMissing) {
     EXPECT_EQ(scene.models[0].solid->radius, 0.25);
 }
 
+TEST(SceneChange, NullRemovesAKeyOrAnItem) {
+    EXPECT_EQ(room_with({{"lights.0", "null"}}).lights.size(), 1u);
+    EXPECT_EQ(room_with({{"lights", "null"}}).lights.size(), 1u) << "the default light";
+    EXPECT_EQ(room_with({}).materials.size(),
+              room_with({{"materials.red", "null"}}).materials.size() + 1);
+    const Scene scene = room_with({{"observer.display", "null"},
+                                   {"observer.projection", "orthographic"},
+                                   {"observer.width", "3"}});
+    EXPECT_EQ(scene.observer.projection, Projection::orthographic);
+    EXPECT_THAT(refusal_of("lights.none", "null"), HasSubstr("nothing named \"none\""));
+    EXPECT_THAT(refusal_of("render.samples", "null"), HasSubstr("nothing named"));
+}
+
 TEST(SceneChange, TheLastOneOfAPathHolds) {
     EXPECT_EQ(room_with({{"render.samples", "4"}, {"render.samples", "2"}}).render.samples, 2);
 }

@@ -63,6 +63,7 @@ class Changer {
     void change() {
         const std::optional<std::vector<PathStep>> steps = parse_path(change_.path);
         if (!steps) fail(fmt::format("the path {} {}", quote(change_.path), kPathAdvice));
+        if (change_.value == "null") return remove(*steps);
         JsonValue value = parse_value(change_.value, change_.origin);
         set_place(value, at_);
         JsonValue* here = &document_;
@@ -76,6 +77,18 @@ class Changer {
   private:
     [[noreturn]] void fail(const std::string& sentence) const {
         throw Error(ErrorKind::usage, "{}: {}", change_.origin, sentence);
+    }
+
+    void remove(const std::vector<PathStep>& steps) {
+        JsonValue* here = &document_;
+        for (size_t i = 0; i + 1 < steps.size(); ++i) here = &inside(*here, steps[i], true);
+        inside(*here, steps.back(), true);  // it must be there
+        if (here->type == JsonType::array) {
+            here->items.erase(here->items.begin() + std::ptrdiff_t(index_of(*here, steps.back())));
+        } else {
+            std::erase_if(here->members,
+                          [&](const JsonMember& member) { return member.key == steps.back().key; });
+        }
     }
 
     /// True if the keys of a section are names from the scene.
@@ -106,6 +119,12 @@ class Changer {
     }
 
     JsonValue& item(JsonValue& list, const PathStep& step) {
+        const size_t index = index_of(list, step);
+        here_ += fmt::format("[{}]", index);
+        return list.items[index];
+    }
+
+    size_t index_of(const JsonValue& list, const PathStep& step) const {
         size_t index = step.item;
         if (!step.key.empty()) {
             const auto named = std::ranges::find_if(
@@ -120,8 +139,7 @@ class Changer {
         if (index >= list.items.size())
             fail(fmt::format("there is no {}[{}]: {} has {} items, counted from 0", here_, index,
                              here_, list.items.size()));
-        here_ += fmt::format("[{}]", index);
-        return list.items[index];
+        return index;
     }
 
     /// The name of an item; empty for items without one.

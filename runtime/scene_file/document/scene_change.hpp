@@ -16,7 +16,7 @@ namespace voxelume {
 /// A value for a path of the scene's document.
 struct SceneChange {
     std::string path;    ///< "objects.ball.position", "lights[0].intensity"
-    std::string value;   ///< text for `parse_value`
+    std::string value;   ///< text for `parse_value`; "null" removes what the path names
     std::string origin;  ///< the change in messages: "--set objects.ball.position=0,1"
 };
 
