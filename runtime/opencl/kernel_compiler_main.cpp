@@ -17,8 +17,8 @@
 
 #include "runtime/base/helper/helper_process.hpp"
 #include "runtime/opencl/ahead/compile_job.hpp"
-#include "runtime/opencl/ahead/kernel_launcher.hpp"
 #include "runtime/opencl/device.hpp"
+#include "runtime/opencl/kernel_launcher.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/opencl/quirks/pocl_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/ahead/kernel_launcher.hpp"
+#include "runtime/opencl/kernel_launcher.hpp"
 
 #include <vector>
 
